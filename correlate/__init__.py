@@ -1,0 +1,1 @@
+"""Discrepancy between the measured and the modelled tip path."""

@@ -1,0 +1,1 @@
+"""Sample photographs (renders with known truth), one folder a crimp ratio."""

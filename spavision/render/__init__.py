@@ -1,0 +1,1 @@
+"""Synthetic photographs with known truth, by a camera model of their own."""

@@ -1,0 +1,1 @@
+"""Measuring the actuator in photographs: board lattice, marker, parallax, uncertainty."""

@@ -1,0 +1,5 @@
+"""Run the command line with ``python -m spavision``."""
+
+from spavision.cli.main import run
+
+run()

@@ -1,0 +1,77 @@
+"""The entry point: finds the command asked for, loads it alone, and turns bad input into one sentence."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+import traceback
+from typing import NoReturn
+
+import click
+
+from spavision import __version__
+from spavision.errors import InputError
+
+COMMANDS = {
+    "track": "Measure the tip in photographs: photos -> tip path with uncertainty.",
+    "simulate": "Run the 3D finite-element model: pressures -> tip path, fields.",
+    "correlate": "Compare the measured with the modelled tip path at the same pressures.",
+    "render": "Render synthetic photographs with known truth.",
+}
+"""Name and one line of help of each command; the module of the same name holds it."""
+
+
+class _LazyGroup(click.Group):
+    """A group that imports a command's module only when that command is asked for."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
+        if cmd_name not in COMMANDS:
+            return None
+        command: click.Command = getattr(importlib.import_module(f"spavision.cli.{cmd_name}"), cmd_name)
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+
+@click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="spavision")
+@click.option("--debug", is_flag=True, help="Show the traceback of an internal error.")
+def main(debug: bool) -> None:
+    r"""Track a soft pneumatic actuator in photographs, simulate it, and compare the two.
+
+    \b
+    spavision track photos/            photos -> tip displacement with uncertainty
+    spavision correlate --crimp 0.2    measured against model at the same pressures
+    """
+
+
+def run() -> NoReturn:
+    """Run the command line; exit 2 on bad input, 1 on an internal error, 130 when interrupted."""
+    debug = "--debug" in sys.argv
+    arguments = [argument for argument in sys.argv[1:] if argument != "--debug"]
+    try:
+        main.main(args=arguments, prog_name="spavision", standalone_mode=False)
+    except InputError as error:
+        _stop(f"spavision: {error}", 2)
+    except click.exceptions.Abort:
+        _stop("spavision: interrupted; the files written so far are whole", 130)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
+    except BrokenPipeError:
+        sys.exit(1)
+    except Exception as error:
+        if debug:
+            traceback.print_exc()
+        _stop(f"spavision: internal error: {type(error).__name__}: {error} (--debug shows where)", 1)
+    sys.exit(0)
+
+
+def _stop(sentence: str, code: int) -> NoReturn:
+    click.echo(" ".join(sentence.split()), err=True)
+    sys.exit(code)

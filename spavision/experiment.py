@@ -1,0 +1,202 @@
+"""The experiment file: what a laboratory knows about its set-up, checked key by key."""
+
+from __future__ import annotations
+
+import difflib
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from spavision.errors import InputError
+
+FILE_NAME = "experiment.toml"
+
+PositiveLength = Annotated[float, Field(gt=0, le=1000, allow_inf_nan=False)]
+CrimpRatio = Annotated[float, Field(ge=0.1, le=0.4, allow_inf_nan=False)]
+
+
+class _Section(BaseModel):
+    """A section of the file: unknown keys are refused, values are fixed once read."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=False)
+
+
+class BoardSection(_Section):
+    """The checkerboard behind the actuator."""
+
+    square_mm: float = Field(2.5, ge=0.2, le=100, description="side of one square, mm")
+    scale: float = Field(
+        1.0, ge=0.8, le=1.25, description="true over nominal length of 100 squares, by ruler"
+    )
+
+
+class CameraSection(_Section):
+    """Where the camera and the marker stand with respect to the board."""
+
+    standoff_mm: float | None = Field(
+        None, ge=0, le=300, description="marker plane in front of the board, mm"
+    )
+    distance_mm: float | None = Field(
+        None, ge=50, le=20000, description="camera to board, along the normal, mm"
+    )
+    file: str | None = Field(None, description="camera.toml written by spavision calibrate")
+
+
+class MarkerSection(_Section):
+    """The coloured dot near the tip."""
+
+    colour: str = Field("red", description="named colour, or #rrggbb sampled from a photo")
+    diameter_mm: float | None = Field(None, gt=0.2, le=50, description="diameter of the dot, mm")
+
+
+class PhotosSection(_Section):
+    """How the pressure of each photo is known."""
+
+    pressures: Literal["names", "table", "step"] = Field(
+        "names", description="pressure from file names, a CSV or a step"
+    )
+    table: str | None = Field(None, description="CSV with the columns photo, pressure_kPa")
+    step_kPa: float | None = Field(
+        None, gt=0, le=500, description="pressure increment between photos in order, kPa"
+    )
+
+    @model_validator(mode="after")
+    def _source_is_complete(self) -> PhotosSection:
+        needed = {"table": self.table, "step": self.step_kPa}
+        if self.pressures in needed and needed[self.pressures] is None:
+            key = {"table": "table", "step": "step_kPa"}[self.pressures]
+            raise ValueError(f'pressures = "{self.pressures}" needs the key {key}')
+        return self
+
+
+class ActuatorSection(_Section):
+    """The actuator: defaults are the article's, or assumed where it is silent."""
+
+    crimp_ratio: CrimpRatio | None = Field(None, description="amplitude over wavelength of the crimped paper")
+    first_bend: Literal["right", "left"] = Field(
+        "right", description="side of the photo the tip moves to first"
+    )
+    body_material: str = Field("Mold Star 15", description="silicone of the body and the 1 mm strip")
+    strip_b_material: str = Field("Mold Star 15", description="silicone of the strip on region B")
+    void_count: int = Field(15, ge=1, le=60, description="connected voids along the length")
+    pitch_mm: PositiveLength = Field(10.5, description="distance from void to void, mm (assumed)")
+    width_mm: PositiveLength = Field(15.0, description="width of the body, mm")
+    height_mm: PositiveLength = Field(17.5, description="height of the body, mm")
+    wall_between_voids_mm: PositiveLength = Field(2.5, description="mm (assumed)")
+    side_wall_mm: PositiveLength = Field(2.5, description="mm (assumed)")
+    roof_mm: PositiveLength = Field(2.5, description="mm (assumed)")
+    end_wall_mm: PositiveLength = Field(2.5, description="mm (assumed)")
+    strip_a_mm: PositiveLength = Field(1.0, description="strip between voids and composite, mm")
+    composite_mm: PositiveLength = Field(5.0, description="thickness of the bilinear composite, mm")
+    strip_b_mm: float = Field(
+        3.0, ge=0, le=20, description="strip glued on region B, mm; 0 for none (assumed)"
+    )
+    channel_width_mm: PositiveLength = Field(2.0, description="channel that connects the voids, mm (assumed)")
+    channel_height_mm: PositiveLength = Field(
+        2.0, description="channel that connects the voids, mm (assumed)"
+    )
+
+    def geometry(self) -> dict[str, float | int]:
+        """Return the lengths and counts that describe the shape, by key."""
+        other = {"crimp_ratio", "first_bend", "body_material", "strip_b_material"}
+        return self.model_dump(exclude=other)
+
+
+class ModelSection(_Section):
+    """Settings of the finite-element model."""
+
+    mesh: Literal["draft", "default", "fine"] = Field("default", description="mesh level")
+
+
+class Experiment(_Section):
+    """Everything an experiment file may say; each section may be left out."""
+
+    board: BoardSection = BoardSection()
+    camera: CameraSection = CameraSection()
+    marker: MarkerSection = MarkerSection()
+    photos: PhotosSection = PhotosSection()
+    actuator: ActuatorSection = ActuatorSection()
+    model: ModelSection = ModelSection()
+
+    def with_options(self, options: dict[str, dict[str, Any]]) -> Experiment:
+        """Return the experiment with command-line options laid over it.
+
+        Parameters
+        ----------
+        options : dict
+            Section name to a dict of keys; a value of None means that the option was not given.
+
+        Raises
+        ------
+        InputError
+            If an option's value is out of range.
+        """
+        merged = self.model_dump()
+        for section, given in options.items():
+            merged[section] |= {key: value for key, value in given.items() if value is not None}
+        return _validated(merged, source="command line")
+
+
+def read_experiment(path: Path) -> Experiment:
+    """Read and check an experiment file.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is not TOML, or holds an unknown key or a value out of range.
+    """
+    try:
+        content = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise InputError(
+            f"{path}: cannot be read ({error.strerror}); name an existing experiment file"
+        ) from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: is not UTF-8 text; save the experiment file as UTF-8") from error
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{path}: is not valid TOML ({error}); correct that line") from error
+    return _validated(content, source=str(path))
+
+
+def _validated(content: dict[str, Any], *, source: str) -> Experiment:
+    try:
+        return Experiment.model_validate(content)
+    except ValidationError as error:
+        raise InputError(f"{source}: {_sentence(error)}") from error
+
+
+def _sentence(error: ValidationError) -> str:
+    """Say the first thing that is wrong with the file, as one sentence with a mend."""
+    first = error.errors()[0]
+    *sections, key = [str(part) for part in first["loc"]] or ["experiment"]
+    where = f"[{'.'.join(sections)}] {key}" if sections else f"[{key}]"
+    if first["type"] == "extra_forbidden":
+        return f"unknown key {where}; {_nearest(sections, key)}"
+    message = first["msg"].removeprefix("Value error, ")
+    message = message[:1].lower() + message[1:]
+    description = _description(sections, key)
+    value = "" if isinstance(first["input"], dict) else f" is {first['input']!r}:"
+    return f"{where}{value} {message}{f' ({description})' if description else ''}; correct the value"
+
+
+def _section_fields(sections: list[str]) -> dict[str, Any]:
+    model: type[BaseModel] = Experiment
+    for name in sections:
+        annotation = model.model_fields[name].annotation if name in model.model_fields else None
+        if not (isinstance(annotation, type) and issubclass(annotation, BaseModel)):
+            return {}
+        model = annotation
+    return dict(model.model_fields)
+
+
+def _description(sections: list[str], key: str) -> str:
+    field = _section_fields(sections).get(key)
+    return (field.description or "") if field is not None else ""
+
+
+def _nearest(sections: list[str], key: str) -> str:
+    names = list(_section_fields(sections))
+    close = difflib.get_close_matches(key, names, n=2, cutoff=0.5)
+    return f"did you mean {' or '.join(close)}?" if close else f"expected one of {', '.join(names)}"

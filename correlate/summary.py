@@ -43,7 +43,7 @@ class Summary:
             _mode_sentence("measured", self.measured_modes),
             _mode_sentence("modelled", self.modelled_modes),
             *self._alignment(),
-            f"Pressure left aside, the two paths are {self.frechet_mm:.1f} mm apart (discrete Fréchet distance).",
+            f"Pressure left aside, the paths are {self.frechet_mm:.1f} mm apart (discrete Fréchet distance).",
             *self._gaps(),
         ]
 
@@ -75,8 +75,8 @@ class Summary:
             )
             sentences.append(
                 f"{how} of the model would bring the error from {alignment.rmse_before_mm:.1f} to "
-                f"{alignment.rmse_after_mm:.1f} mm over {alignment.readings} readings: {alignment.explained:.0%} of "
-                "the squared error is of that kind, the rest is shape."
+                f"{alignment.rmse_after_mm:.1f} mm over {alignment.readings} readings: {alignment.explained:.0%} "
+                "of the squared error is of that kind, the rest is shape."
             )
         return sentences
 
@@ -106,15 +106,15 @@ def _frechet_over_common(discrepancy: Discrepancy) -> float:
 
 
 def _mode_sentence(side: str, modes: Modes) -> str:
-    start = f"First mode, {side}: x reaches {modes.first_extremum_mm:.1f} mm at {modes.first_extremum_kPa:.0f} kPa"
+    top = f"x reaches {modes.first_extremum_mm:.1f} mm at {modes.first_extremum_kPa:.0f} kPa"
     if not modes.reverses:
-        return f"{start}, the last reading; no change of mode is seen."
+        return f"First mode, {side}: {top}, the last reading; no change of mode is seen."
     crossing = (
         f", passing its rest position at {modes.crosses_zero_kPa:.0f} kPa"
         if np.isfinite(modes.crosses_zero_kPa)
         else ""
     )
     return (
-        f"{start}; second mode: back to {modes.second_extreme_mm:.1f} mm "
+        f"First mode, {side}: {top}; second mode: back to {modes.second_extreme_mm:.1f} mm "
         f"at {modes.second_extreme_kPa:.0f} kPa{crossing}."
     )

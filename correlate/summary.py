@@ -74,8 +74,9 @@ class Summary:
                 else f"A pressure scale of {alignment.value:.2f}"
             )
             sentences.append(
-                f"{how} of the model would bring the error from {alignment.rmse_before_mm:.1f} to "
-                f"{alignment.rmse_after_mm:.1f} mm over {alignment.readings} readings: {alignment.explained:.0%} "
+                f"{how} of the model would bring the error from "
+                f"{alignment.rmse_before_mm:.1f} to {alignment.rmse_after_mm:.1f} mm over "
+                f"{alignment.readings} readings: {alignment.explained:.0%} "
                 "of the squared error is of that kind, the rest is shape."
             )
         return sentences

@@ -198,5 +198,5 @@ def _description(sections: list[str], key: str) -> str:
 
 def _nearest(sections: list[str], key: str) -> str:
     names = list(_section_fields(sections))
-    close = difflib.get_close_matches(key, names, n=2, cutoff=0.5)
-    return f"did you mean {' or '.join(close)}?" if close else f"expected one of {', '.join(names)}"
+    close = difflib.get_close_matches(key, names, n=1, cutoff=0.5)
+    return f"did you mean {close[0]}?" if close else f"expected one of {', '.join(names)}"

@@ -1,0 +1,160 @@
+"""Numba kernels for element forces and tangents, with the pressure condensed in each element."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit, prange
+
+from .elements import FloatArray
+
+BLOCKS = np.array([[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [0, 2]])
+"""Component pairs of the six stored blocks of an element's symmetric tangent."""
+
+_VOIGT = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
+_FAST = {"contract", "reassoc", "nsz", "arcp"}
+
+
+@njit(cache=True, fastmath=_FAST)
+def _spatial_gradients(F: FloatArray, J: float, gradients: FloatArray, out: FloatArray) -> None:
+    """Turn gradients in undeformed coordinates into spatial ones, (3, n_nodes) to (3, n_nodes)."""
+    inverse = np.empty((3, 3))
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        for p in range(3):
+            q, r = (p + 1) % 3, (p + 2) % 3
+            inverse[p, i] = (F[j, q] * F[k, r] - F[j, r] * F[k, q]) / J
+    for i in range(3):
+        for a in range(gradients.shape[1]):
+            out[i, a] = (
+                inverse[0, i] * gradients[0, a]
+                + inverse[1, i] * gradients[1, a]
+                + inverse[2, i] * gradients[2, a]
+            )
+
+
+@njit(cache=True, parallel=True, fastmath=_FAST)
+def element_forces(
+    gradients: FloatArray,
+    volumes: FloatArray,
+    modes: FloatArray,
+    F: FloatArray,
+    J: FloatArray,
+    stress: FloatArray,
+    forces: FloatArray,
+    dilatation: FloatArray,
+    pressure_operator: FloatArray,
+) -> None:
+    """Integrate isochoric forces, dilatation and the operator from pressure to force.
+
+    Parameters
+    ----------
+    gradients, volumes, modes : array
+        Tables of `ElementGeometry`.
+    F, J : array, shape (n_elements, n_points, 3, 3) and (n_elements, n_points)
+    stress : array, shape (n_elements, n_points, 6)
+        Kirchhoff stress without the volumetric part.
+    forces : array, shape (n_elements, 3, n_nodes)
+        Written: ∫ τ·∇N dV.
+    dilatation : array, shape (n_elements, n_modes)
+        Written: ∫ ψ (J − 1) dV.
+    pressure_operator : array, shape (n_elements, n_modes, 3, n_nodes)
+        Written: its derivative with respect to the displacements.
+    """
+    n_elements, n_points, _, n_nodes = gradients.shape
+    n_modes = modes.shape[2]
+    for e in prange(n_elements):
+        g = np.empty((3, n_nodes))
+        forces[e] = 0.0
+        dilatation[e] = 0.0
+        pressure_operator[e] = 0.0
+        for q in range(n_points):
+            _spatial_gradients(F[e, q], J[e, q], gradients[e, q], g)
+            w = volumes[e, q]
+            for i in range(3):
+                t0 = w * stress[e, q, _VOIGT[i, 0]]
+                t1 = w * stress[e, q, _VOIGT[i, 1]]
+                t2 = w * stress[e, q, _VOIGT[i, 2]]
+                for a in range(n_nodes):
+                    forces[e, i, a] += t0 * g[0, a] + t1 * g[1, a] + t2 * g[2, a]
+            for m in range(n_modes):
+                weight = w * modes[e, q, m]
+                dilatation[e, m] += weight * (J[e, q] - 1.0)
+                weight *= J[e, q]
+                for i in range(3):
+                    for a in range(n_nodes):
+                        pressure_operator[e, m, i, a] += weight * g[i, a]
+
+
+@njit(cache=True, parallel=True, fastmath=_FAST)
+def element_tangents(
+    gradients: FloatArray,
+    volumes: FloatArray,
+    modes: FloatArray,
+    F: FloatArray,
+    J: FloatArray,
+    stress: FloatArray,
+    moduli: FloatArray,
+    pressure: FloatArray,
+    bulk_modulus: FloatArray,
+    pressure_operator: FloatArray,
+    tangents: FloatArray,
+) -> None:
+    """Integrate the element tangents, pressure condensed.
+
+    Parameters
+    ----------
+    gradients, volumes, modes, F, J, stress, pressure_operator : array
+        As in `element_forces`.
+    moduli : array, shape (n_elements, n_points, 6, 6)
+        Spatial moduli without the volumetric part.
+    pressure : array, shape (n_elements, n_modes)
+    bulk_modulus : array, shape (n_elements,)
+    tangents : array, shape (n_elements, 6, n_nodes, n_nodes)
+        Written: the blocks ``BLOCKS`` of the symmetric tangent, rows by the first component's nodes.
+    """
+    n_elements, n_points, _, n_nodes = gradients.shape
+    n_modes = modes.shape[2]
+    for e in prange(n_elements):
+        g = np.empty((3, n_nodes))
+        t = np.empty((3, n_nodes))
+        tangents[e] = 0.0
+        for q in range(n_points):
+            _spatial_gradients(F[e, q], J[e, q], gradients[e, q], g)
+            w = volumes[e, q]
+            p = 0.0
+            for m in range(n_modes):
+                p += modes[e, q, m] * pressure[e, m]
+            p *= J[e, q]
+            c = moduli[e, q]
+            for block in range(6):
+                i, j = BLOCKS[block]
+                for r in range(3):
+                    a0 = c[_VOIGT[i, r], _VOIGT[j, 0]]
+                    a1 = c[_VOIGT[i, r], _VOIGT[j, 1]]
+                    a2 = c[_VOIGT[i, r], _VOIGT[j, 2]]
+                    if i == j:
+                        a0 += stress[e, q, _VOIGT[r, 0]]
+                        a1 += stress[e, q, _VOIGT[r, 1]]
+                        a2 += stress[e, q, _VOIGT[r, 2]]
+                    elif r == i:
+                        # d(J F⁻ᵀ)·p: +p δ_ir δ_js − p δ_is δ_jr; the two cancel where i = j
+                        a0 += p if j == 0 else 0.0
+                        a1 += p if j == 1 else 0.0
+                        a2 += p if j == 2 else 0.0
+                    elif r == j:
+                        a0 -= p if i == 0 else 0.0
+                        a1 -= p if i == 1 else 0.0
+                        a2 -= p if i == 2 else 0.0
+                    for b in range(n_nodes):
+                        t[r, b] = w * (a0 * g[0, b] + a1 * g[1, b] + a2 * g[2, b])
+                for a in range(n_nodes):
+                    g0, g1, g2 = g[0, a], g[1, a], g[2, a]
+                    for b in range(n_nodes):
+                        tangents[e, block, a, b] += g0 * t[0, b] + g1 * t[1, b] + g2 * t[2, b]
+        for block in range(6):
+            i, j = BLOCKS[block]
+            for m in range(n_modes):
+                for a in range(n_nodes):
+                    factor = bulk_modulus[e] * pressure_operator[e, m, i, a]
+                    for b in range(n_nodes):
+                        tangents[e, block, a, b] += factor * pressure_operator[e, m, j, b]

@@ -1,0 +1,256 @@
+"""The discrete equilibrium of a pressurised body: residual, tangent, energy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from .cavity import Cavity
+from .constitutive import Deformation, MaterialGroup, deform, isochoric_energy, stress_and_moduli
+from .element_geometry import ElementGeometry, element_geometry
+from .element_kernels import element_forces, element_tangents
+from .elements import FloatArray, IntArray, reference_element
+from .hex_mesh import BoolArray, HexMesh
+from .materials.solid import SolidMaterial
+from .sparsity import TangentPattern, tangent_pattern
+
+GRAVITY_MM_PER_S2 = 9810.0
+"""Standard gravity, rounded; in mm/s² it goes with tonne and N."""
+
+
+@dataclass(frozen=True)
+class State:
+    """A point in the space of solutions.
+
+    Parameters
+    ----------
+    displacement : array, shape (n_nodes, 3)
+        In mm.
+    pressure : array, shape (n_elements, n_modes)
+        Coefficients of the solid's own pressure, κ(J − 1) when converged.
+    """
+
+    displacement: FloatArray
+    pressure: FloatArray
+
+
+@dataclass(frozen=True)
+class Load:
+    """What acts on the body.
+
+    Parameters
+    ----------
+    gas_pressure_MPa : float
+        Gauge pressure in the cavity.
+    gravity : float
+        Fraction of its own weight that the body bears.
+    """
+
+    gas_pressure_MPa: float
+    gravity: float
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Forces out of balance at a state, and what the tangent needs to be formed there.
+
+    Parameters
+    ----------
+    condensed : array, shape (n_free,)
+        Internal minus external forces, the solid's pressure eliminated as κ(J − 1).
+    mixed_norm, load_norm : float
+        Norms of the forces out of balance under the state's own pressure and of the external forces.
+    projected_pressure : array, shape (n_elements, n_modes)
+        κ(J − 1) projected on the pressure modes.
+    pressure_operator : array, shape (n_elements, n_modes, 3, n_element_nodes)
+    kinematics : Deformation
+    """
+
+    condensed: FloatArray
+    mixed_norm: float
+    load_norm: float
+    projected_pressure: FloatArray
+    pressure_operator: FloatArray
+    kinematics: Deformation
+
+    @property
+    def relative_residual(self) -> float:
+        """Forces out of balance over external forces."""
+        return self.mixed_norm / self.load_norm if self.load_norm > 0.0 else self.mixed_norm
+
+
+class Equilibrium:
+    """A mesh, its materials and supports, ready to be put under load.
+
+    Parameters
+    ----------
+    mesh : HexMesh
+    materials : dict of str to SolidMaterial
+        One for each region of the mesh.
+    is_fixed : array, shape (n_nodes, 3)
+        Displacement components that the supports hold.
+    gravity_direction : tuple of float
+        Unit vector.
+    """
+
+    def __init__(
+        self,
+        mesh: HexMesh,
+        materials: dict[str, SolidMaterial],
+        *,
+        is_fixed: BoolArray,
+        gravity_direction: tuple[float, float, float] = (0.0, 1.0, 0.0),
+    ) -> None:
+        self.mesh = mesh
+        self.geometry: ElementGeometry = element_geometry(mesh)
+        self.cavity = Cavity.of(mesh)
+        self.groups = _material_groups(mesh, materials)
+        self.bulk_modulus_MPa = _per_element(self.groups, len(mesh.elements), "bulk_modulus_MPa")
+        self.is_free = ~is_fixed
+        self.pattern: TangentPattern = tangent_pattern(mesh.elements, mesh.cavity_faces, _numbering(is_fixed))
+        self._weight = self._body_force(np.asarray(gravity_direction))
+
+    def unloaded(self) -> State:
+        """Return the undeformed state."""
+        n_modes = self.geometry.pressure_modes.shape[2]
+        return State(np.zeros_like(self.mesh.nodes_mm), np.zeros((len(self.mesh.elements), n_modes)))
+
+    def balance(self, state: State, load: Load) -> Balance | None:
+        """Evaluate the forces out of balance; None where an element is turned inside out."""
+        kinematics = deform(state.displacement, self.mesh.elements, self.geometry)
+        if not kinematics.is_admissible:
+            return None
+        stress, _ = stress_and_moduli(self.groups, kinematics, with_moduli=False)
+        forces, dilatation, operator = self._integrate(kinematics, stress)
+        projected = self.bulk_modulus_MPa[:, None] * dilatation
+        external = load.gravity * self._weight + load.gas_pressure_MPa * self._unit_pressure_forces(state)
+        condensed = self._scatter(forces + np.einsum("em,emia->eia", projected, operator)) - external
+        mixed = self._scatter(forces + np.einsum("em,emia->eia", state.pressure, operator)) - external
+        return Balance(
+            condensed=condensed[self.is_free],
+            mixed_norm=float(np.linalg.norm(mixed[self.is_free])),
+            load_norm=float(np.linalg.norm(external[self.is_free])),
+            projected_pressure=projected,
+            pressure_operator=operator,
+            kinematics=kinematics,
+        )
+
+    def tangent(self, state: State, load: Load, balance: Balance) -> csr_array:
+        """Assemble the upper triangle of the derivative of the condensed forces."""
+        kinematics, geometry = balance.kinematics, self.geometry
+        stress, moduli = stress_and_moduli(self.groups, kinematics, with_moduli=True)
+        n_elements, n_nodes = self.mesh.elements.shape
+        buffer = np.empty(self.pattern.buffer_size)
+        n_solid = n_elements * 6 * n_nodes**2
+        element_tangents(
+            geometry.gradients,
+            geometry.volumes,
+            geometry.pressure_modes,
+            kinematics.F,
+            kinematics.J,
+            stress,
+            moduli,
+            state.pressure,
+            self.bulk_modulus_MPa,
+            balance.pressure_operator,
+            buffer[:n_solid].reshape(n_elements, 6, n_nodes, n_nodes),
+        )
+        position = self.mesh.nodes_mm + state.displacement
+        buffer[n_solid:] = (-load.gas_pressure_MPa * self.cavity.hessians(position)).ravel()
+        return self.pattern.gather(buffer)
+
+    def update(self, state: State, balance: Balance, correction: FloatArray) -> State:
+        """Return the state after a Newton correction of the free displacement components, shape (n_free,)."""
+        step = np.zeros_like(state.displacement)
+        step[self.is_free] = correction
+        change = np.einsum("emia,eai->em", balance.pressure_operator, step[self.mesh.elements])
+        pressure = balance.projected_pressure + self.bulk_modulus_MPa[:, None] * change
+        return State(state.displacement + step, pressure)
+
+    def enclosed_volume_mm3(self, state: State) -> float:
+        """Return the cavity's volume (half of it in a half model)."""
+        return self.cavity.volume(self.mesh.nodes_mm + state.displacement)
+
+    def strain_energy(self, state: State) -> float:
+        """Return the energy stored in the solid, in N mm."""
+        kinematics = deform(state.displacement, self.mesh.elements, self.geometry)
+        excess = np.einsum(
+            "eq,eqm->em", self.geometry.volumes * (kinematics.J - 1.0), self.geometry.pressure_modes
+        )
+        volumetric = 0.5 * float(self.bulk_modulus_MPa @ (excess**2).sum(axis=1))
+        return isochoric_energy(self.groups, kinematics, self.geometry.volumes) + volumetric
+
+    def gravity_work(self, state: State) -> float:
+        """Return the work of the full weight over the state's displacement, in N mm."""
+        return float(np.sum(self._weight * state.displacement))
+
+    def _integrate(
+        self, kinematics: Deformation, stress: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        n_elements, n_nodes = self.mesh.elements.shape
+        n_modes = self.geometry.pressure_modes.shape[2]
+        forces = np.empty((n_elements, 3, n_nodes))
+        dilatation = np.empty((n_elements, n_modes))
+        operator = np.empty((n_elements, n_modes, 3, n_nodes))
+        element_forces(
+            self.geometry.gradients,
+            self.geometry.volumes,
+            self.geometry.pressure_modes,
+            kinematics.F,
+            kinematics.J,
+            stress,
+            forces,
+            dilatation,
+            operator,
+        )
+        return forces, dilatation, operator
+
+    def _scatter(self, element_forces: FloatArray) -> FloatArray:
+        return _sum_to_nodes(self.mesh.elements, element_forces, len(self.mesh.nodes_mm))
+
+    def _unit_pressure_forces(self, state: State) -> FloatArray:
+        forces = self.cavity.forces(self.mesh.nodes_mm + state.displacement)
+        return _sum_to_nodes(self.mesh.cavity_faces, forces, len(self.mesh.nodes_mm))
+
+    def _body_force(self, direction: FloatArray) -> FloatArray:
+        """Nodal forces of the body's weight, shape (n_nodes, 3), in N."""
+        density = _per_element(self.groups, len(self.mesh.elements), "density_tonne_per_mm3")
+        values = reference_element(self.mesh.order).values
+        nodal_mass = np.einsum("e,eq,qa->ea", density, self.geometry.volumes, values)
+        return self._scatter(GRAVITY_MM_PER_S2 * nodal_mass[:, None, :] * direction[None, :, None])
+
+
+def _material_groups(mesh: HexMesh, materials: dict[str, SolidMaterial]) -> tuple[MaterialGroup, ...]:
+    """One group for each distinct material, in the order of the regions."""
+    regions: dict[SolidMaterial, list[int]] = {}
+    for code, name in enumerate(mesh.region_names):
+        regions.setdefault(materials[name], []).append(code)
+    groups = (
+        MaterialGroup(material, np.flatnonzero(np.isin(mesh.region, codes)))
+        for material, codes in regions.items()
+    )
+    return tuple(group for group in groups if len(group.elements))
+
+
+def _per_element(groups: tuple[MaterialGroup, ...], n_elements: int, attribute: str) -> FloatArray:
+    values = np.empty(n_elements)
+    for group in groups:
+        values[group.elements] = getattr(group.material, attribute)
+    return values
+
+
+def _numbering(is_fixed: BoolArray) -> IntArray:
+    """Consecutive numbers for the free components, −1 for the others."""
+    number = np.full(is_fixed.shape, -1, dtype=np.int64)
+    number[~is_fixed] = np.arange(np.count_nonzero(~is_fixed))
+    return number
+
+
+def _sum_to_nodes(cells: IntArray, values: FloatArray, n_nodes: int) -> FloatArray:
+    """Sum cell values, (n_cells, 3, n_cell_nodes), at the nodes, (n_nodes, 3)."""
+    nodes = cells.ravel()
+    return np.column_stack(
+        [np.bincount(nodes, weights=values[:, i].ravel(), minlength=n_nodes) for i in range(3)]
+    )

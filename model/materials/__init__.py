@@ -1,0 +1,1 @@
+"""Constitutive laws, one file a law, and the published parameters."""

@@ -1,0 +1,81 @@
+"""Readings of a solution: the tracked point, the material mid-line, any point of the undeformed body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .elements import FloatArray, IntArray, shape_functions
+from .geometry import ActuatorGeometry
+from .hex_mesh import HexMesh
+
+
+@dataclass(frozen=True)
+class MaterialPoint:
+    """A point of the undeformed body as a combination of nodes.
+
+    Parameters
+    ----------
+    nodes : array, shape (n_element_nodes,)
+    weights : array, shape (n_element_nodes,)
+    """
+
+    nodes: IntArray
+    weights: FloatArray
+
+    def displacement(self, nodal: FloatArray) -> FloatArray:
+        """Return the point's displacement, shape (..., 3), from nodal ones, shape (..., n_nodes, 3)."""
+        return np.einsum("a,...ai->...i", self.weights, nodal[..., self.nodes, :])
+
+
+def locate(mesh: HexMesh, position_mm: FloatArray) -> MaterialPoint:
+    """Find a point of the undeformed body in a mesh of boxes.
+
+    Raises
+    ------
+    ValueError
+        If the point lies outside the body.
+    """
+    corners = mesh.nodes_mm[mesh.elements]
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    slack = 1e-9 * (high - low).max()
+    inside = np.all((position_mm >= low - slack) & (position_mm <= high + slack), axis=1)
+    if not inside.any():
+        raise ValueError(f"the point {position_mm} lies outside the body")
+    element = int(np.flatnonzero(inside)[0])
+    local = _local_coordinates(mesh, element, position_mm)
+    values, _ = shape_functions(mesh.order, local[None, :])
+    return MaterialPoint(mesh.elements[element], values[0])
+
+
+def centre_line(mesh: HexMesh, geometry: ActuatorGeometry, displacement_mm: FloatArray) -> FloatArray:
+    """Return the deformed material mid-line in the x-y plane.
+
+    The line joins the points halfway up the body on its side face, from clamp to tip.
+
+    Parameters
+    ----------
+    mesh : HexMesh
+    geometry : ActuatorGeometry
+    displacement_mm : array, shape (..., n_nodes, 3)
+
+    Returns
+    -------
+    array, shape (..., n_points, 2)
+    """
+    x = geometry.body_base_mm + 0.5 * geometry.height_mm
+    stations = np.linspace(0.0, geometry.length_mm, 4 * geometry.void_count + 1)
+    positions = np.array([(x, y, 0.5 * geometry.width_mm) for y in stations])
+    points = [locate(mesh, position) for position in positions]
+    moved = np.stack([point.displacement(displacement_mm) for point in points], axis=-2)
+    return (moved + positions)[..., :2]
+
+
+def _local_coordinates(mesh: HexMesh, element: int, position_mm: FloatArray) -> FloatArray:
+    """Coordinates in the unit cube; one step of Newton's method is exact for a box."""
+    centre = np.full((1, 3), 0.5)
+    values, gradients = shape_functions(mesh.order, centre)
+    corners = mesh.nodes_mm[mesh.elements[element]]
+    jacobian = np.einsum("ai,ja->ij", corners, gradients[0])
+    return centre[0] + np.linalg.solve(jacobian, position_mm - values[0] @ corners)

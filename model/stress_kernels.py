@@ -1,0 +1,237 @@
+"""Numba kernels from deformation to Kirchhoff stress and spatial moduli at the Gauss points.
+
+Symmetric tensors are stored as six numbers in the order 11, 22, 33, 12, 23, 13.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit, prange
+
+from .elements import FloatArray, IntArray
+
+COALESCENCE = 1e-5
+"""Log stretches closer than this are taken as equal in the moduli, an error of its square."""
+
+_SWEEPS = 12
+_FAST = {"contract", "reassoc", "nsz", "arcp"}
+
+
+@njit(cache=True)
+def symmetric_eigen(matrix: FloatArray, vectors: FloatArray) -> None:
+    """Diagonalise a symmetric 3×3 matrix in place by Jacobi's rotations.
+
+    On return the diagonal of `matrix` holds the eigenvalues and the columns of `vectors` the
+    eigenvectors. Exact for equal eigenvalues too, which closed formulas are not.
+    """
+    for i in range(3):
+        for j in range(3):
+            vectors[i, j] = 1.0 if i == j else 0.0
+    for _ in range(_SWEEPS):
+        off = abs(matrix[0, 1]) + abs(matrix[0, 2]) + abs(matrix[1, 2])
+        if off < 1e-17 * (abs(matrix[0, 0]) + abs(matrix[1, 1]) + abs(matrix[2, 2])):
+            return
+        for p in range(2):
+            for q in range(p + 1, 3):
+                if matrix[p, q] != 0.0:
+                    _rotate(matrix, vectors, p, q)
+
+
+@njit(cache=True)
+def _rotate(matrix: FloatArray, vectors: FloatArray, p: int, q: int) -> None:
+    """Annihilate one off-diagonal entry."""
+    ratio = (matrix[q, q] - matrix[p, p]) / (2.0 * matrix[p, q])
+    tangent = 1.0 / (abs(ratio) + np.sqrt(ratio * ratio + 1.0))
+    if ratio < 0.0:
+        tangent = -tangent
+    cosine = 1.0 / np.sqrt(tangent * tangent + 1.0)
+    sine = tangent * cosine
+    shift = tangent * matrix[p, q]
+    matrix[p, p] -= shift
+    matrix[q, q] += shift
+    matrix[p, q] = 0.0
+    matrix[q, p] = 0.0
+    r = 3 - p - q
+    low, high = matrix[r, p], matrix[r, q]
+    matrix[r, p] = cosine * low - sine * high
+    matrix[p, r] = matrix[r, p]
+    matrix[r, q] = sine * low + cosine * high
+    matrix[q, r] = matrix[r, q]
+    for k in range(3):
+        low, high = vectors[k, p], vectors[k, q]
+        vectors[k, p] = cosine * low - sine * high
+        vectors[k, q] = sine * low + cosine * high
+
+
+@njit(cache=True, parallel=True, fastmath=_FAST)
+def deformation(
+    displacement: FloatArray,
+    elements: IntArray,
+    gradients: FloatArray,
+    F: FloatArray,
+    J: FloatArray,
+    log_stretch: FloatArray,
+    directions: FloatArray,
+) -> None:
+    """Compute deformation gradient, volume ratio, principal log stretches and spatial directions.
+
+    Parameters
+    ----------
+    displacement : array, shape (n_nodes, 3)
+    elements : array, shape (n_elements, n_element_nodes)
+    gradients : array, shape (n_elements, n_points, 3, n_element_nodes)
+    F : array, shape (n_elements, n_points, 3, 3)
+        Written, like those below.
+    J : array, shape (n_elements, n_points)
+    log_stretch : array, shape (n_elements, n_points, 3)
+        Of the whole deformation, not of its isochoric part.
+    directions : array, shape (n_elements, n_points, 3, 3)
+        Column i belongs to stretch i.
+    """
+    n_elements, n_points, _, n_nodes = gradients.shape
+    for e in prange(n_elements):
+        local = np.empty((3, n_nodes))
+        b = np.empty((3, 3))
+        for a in range(n_nodes):
+            for i in range(3):
+                local[i, a] = displacement[elements[e, a], i]
+        for q in range(n_points):
+            f = F[e, q]
+            for i in range(3):
+                for j in range(3):
+                    total = 1.0 if i == j else 0.0
+                    for a in range(n_nodes):
+                        total += local[i, a] * gradients[e, q, j, a]
+                    f[i, j] = total
+            J[e, q] = (
+                f[0, 0] * (f[1, 1] * f[2, 2] - f[1, 2] * f[2, 1])
+                - f[0, 1] * (f[1, 0] * f[2, 2] - f[1, 2] * f[2, 0])
+                + f[0, 2] * (f[1, 0] * f[2, 1] - f[1, 1] * f[2, 0])
+            )
+            for i in range(3):
+                for j in range(3):
+                    b[i, j] = f[i, 0] * f[j, 0] + f[i, 1] * f[j, 1] + f[i, 2] * f[j, 2]
+            symmetric_eigen(b, directions[e, q])
+            for i in range(3):
+                log_stretch[e, q, i] = 0.5 * np.log(max(b[i, i], 1e-300))
+
+
+@njit(cache=True, parallel=True, fastmath=_FAST)
+def principal_stress(directions: FloatArray, first: FloatArray, stress: FloatArray) -> None:
+    """Assemble the isochoric Kirchhoff stress from the law's first derivatives.
+
+    Parameters
+    ----------
+    directions : array, shape (n, 3, 3)
+    first : array, shape (n, 3)
+        Derivatives of the energy with respect to the isochoric log stretches.
+    stress : array, shape (n, 6)
+        Written.
+    """
+    for n in prange(len(first)):
+        mean = (first[n, 0] + first[n, 1] + first[n, 2]) / 3.0
+        v = directions[n]
+        for i in range(3):
+            j = (i + 1) % 3
+            stress[n, i] = 0.0
+            stress[n, 3 + i] = 0.0
+            for k in range(3):
+                stress[n, i] += (first[n, k] - mean) * v[i, k] * v[i, k]
+                # 12, 23, 31 in turn: the places of 12, 23, 13
+                stress[n, 3 + i] += (first[n, k] - mean) * v[i, k] * v[j, k]
+
+
+@njit(cache=True, parallel=True, fastmath=_FAST)
+def principal_moduli(
+    directions: FloatArray, log_stretch: FloatArray, first: FloatArray, second: FloatArray, moduli: FloatArray
+) -> None:
+    r"""Assemble the isochoric spatial moduli (Lie derivative of the Kirchhoff stress).
+
+    .. math:: c = \sum_{ij} (H_{ij} - 2\tau_i\delta_{ij})\,m_{ii}\otimes m_{jj}
+              + \sum_{i<j} 4\,\frac{\tau_i\lambda_j^2-\tau_j\lambda_i^2}{\lambda_i^2-\lambda_j^2}\,m_{ij}\otimes m_{ij}
+
+    with :math:`m_{ij}` the symmetric dyads of the principal directions, and the limit
+    :math:`(H_{ii}-H_{ij})/2-\tau_i` for equal stretches.
+
+    Parameters
+    ----------
+    directions : array, shape (n, 3, 3)
+    log_stretch : array, shape (n, 3)
+    first, second : array, shape (n, 3) and (n, 3, 3)
+        The law's derivatives with respect to the isochoric log stretches.
+    moduli : array, shape (n, 6, 6)
+        Written.
+    """
+    for n in prange(len(first)):
+        tau = np.empty(3)
+        hessian = np.empty((3, 3))
+        dyads = np.empty((6, 6))
+        mean = (first[n, 0] + first[n, 1] + first[n, 2]) / 3.0
+        grand = 0.0
+        for i in range(3):
+            tau[i] = first[n, i] - mean
+            for j in range(3):
+                grand += second[n, i, j] / 9.0
+        for i in range(3):
+            row = (second[n, i, 0] + second[n, i, 1] + second[n, i, 2]) / 3.0
+            for j in range(3):
+                column = (second[n, 0, j] + second[n, 1, j] + second[n, 2, j]) / 3.0
+                hessian[i, j] = second[n, i, j] - row - column + grand
+        v = directions[n]
+        for k in range(6):
+            p, q = k % 3, (k % 3 + k // 3) % 3
+            for i in range(3):
+                j = (i + 1) % 3
+                dyads[k, i] = v[i, p] * v[i, q]
+                dyads[k, 3 + i] = 0.5 * (v[i, p] * v[j, q] + v[j, p] * v[i, q])
+        for r in range(6):
+            for s in range(6):
+                moduli[n, r, s] = 0.0
+        for i in range(3):
+            for j in range(3):
+                factor = hessian[i, j] - (2.0 * tau[i] if i == j else 0.0)
+                for r in range(6):
+                    for s in range(6):
+                        moduli[n, r, s] += factor * dyads[i, r] * dyads[j, s]
+        for i in range(3):
+            j = (i + 1) % 3
+            gap = log_stretch[n, i] - log_stretch[n, j]
+            if abs(gap) < COALESCENCE:
+                shear = 0.25 * (hessian[i, i] + hessian[j, j]) - 0.5 * hessian[i, j] - 0.5 * (tau[i] + tau[j])
+            else:
+                ratio = np.exp(-2.0 * gap)
+                shear = (tau[i] * ratio - tau[j]) / (1.0 - ratio)
+            for r in range(6):
+                for s in range(6):
+                    moduli[n, r, s] += 4.0 * shear * dyads[3 + i, r] * dyads[3 + i, s]
+
+
+@njit(cache=True, parallel=True, fastmath=_FAST)
+def add_fibre(
+    spatial_direction: FloatArray,
+    stress_factor: FloatArray,
+    moduli_factor: FloatArray,
+    stress: FloatArray,
+    moduli: FloatArray,
+) -> None:
+    """Add a fibre family: τ += s a⊗a and c += k a⊗a⊗a⊗a, with a = F·(undeformed direction).
+
+    Parameters
+    ----------
+    spatial_direction : array, shape (n, 3)
+    stress_factor, moduli_factor : array, shape (n,)
+    stress : array, shape (n, 6)
+    moduli : array, shape (n, 6, 6), or (0, 6, 6) where they are not wanted
+    """
+    for n in prange(len(stress_factor)):
+        dyad = np.empty(6)
+        a = spatial_direction[n]
+        for i in range(3):
+            dyad[i] = a[i] * a[i]
+            dyad[3 + i] = a[i] * a[(i + 1) % 3]
+        for r in range(6):
+            stress[n, r] += stress_factor[n] * dyad[r]
+        if len(moduli) > 0:
+            for r in range(6):
+                for s in range(6):
+                    moduli[n, r, s] += moduli_factor[n] * dyad[r] * dyad[s]

@@ -1,0 +1,97 @@
+"""How strongly each pixel has the marker's colour, after white balance on the board's own squares."""
+
+from __future__ import annotations
+
+import re
+
+import cv2
+import numpy as np
+
+from spavision.errors import InputError
+
+from .arrays import FloatArray, FloatImage, RgbImage
+from .board import BoardView
+from .camera import project
+
+NAMED_COLOURS = {
+    "red": (190, 30, 30),
+    "orange": (235, 120, 20),
+    "yellow": (235, 205, 30),
+    "green": (20, 140, 50),
+    "cyan": (0, 160, 190),
+    "blue": (25, 70, 190),
+    "purple": (110, 40, 150),
+    "magenta": (200, 30, 140),
+}
+"""sRGB of typical felt pens and stickers; a sampled colour (#rrggbb) serves as well."""
+
+FOREIGN_HUE_COST = 0.9
+"""What a unit of chroma across the marker's hue takes off a unit along it."""
+
+
+def parse_colour(text: str) -> tuple[int, int, int]:
+    """Turn a colour's name or ``#rrggbb`` into sRGB, 0 to 255.
+
+    Raises
+    ------
+    InputError
+        If the text is neither, or names a grey, which a checkerboard is full of.
+    """
+    name = text.strip().lower()
+    if name in NAMED_COLOURS:
+        return NAMED_COLOURS[name]
+    if not re.fullmatch(r"#[0-9a-f]{6}", name):
+        raise InputError(
+            f"--marker-colour is {text!r}; expected {', '.join(NAMED_COLOURS)} or a sampled colour as #rrggbb"
+        )
+    rgb = (int(name[1:3], 16), int(name[3:5], 16), int(name[5:7], 16))
+    _, a, b = _lab(np.array([[rgb]], np.float32) / 255.0)[0, 0]
+    if np.hypot(a, b) < 12.0:
+        raise InputError(
+            f"--marker-colour {text} is nearly grey like the board; choose a marker with more colour"
+        )
+    return rgb
+
+
+def white_balance(rgb: RgbImage, board: BoardView) -> tuple[FloatArray, FloatArray]:
+    """Colours of the board's dark and bright squares, each of shape (3,), from their middles."""
+    rows = np.linspace(0, len(board.indices) - 1, min(4000, len(board.indices))).astype(np.intp)
+    nodes = board.indices[rows]
+    middles = project(board.camera, board.pose, nodes.astype(float) + 0.5)
+    column, row = np.rint(middles).astype(np.intp).T
+    height, width = rgb.shape[:2]
+    inside = (column >= 0) & (column < width) & (row >= 0) & (row < height)
+    colours = rgb[row[inside], column[inside]].astype(float)
+    bright = nodes[inside].sum(axis=1) % 2 == 0
+    return np.median(colours[~bright], axis=0), np.median(colours[bright], axis=0)
+
+
+def colour_strength(
+    rgb: RgbImage, levels: tuple[FloatArray, FloatArray], target: tuple[int, int, int]
+) -> FloatImage:
+    """Chroma along the target's hue less a share of the chroma across it, in units of Lab.
+
+    Parameters
+    ----------
+    rgb : uint8 array, shape (height, width, 3)
+        Photograph or part of one.
+    levels : pair of arrays, shape (3,)
+        Dark and bright squares from `white_balance`; bright is made neutral, so that warm or cold light does
+        not turn into chroma.
+    target : tuple of int
+        Marker colour, sRGB.
+    """
+    dark, bright = levels
+    # Half the dark level stays: glare lifts it, and taking it off whole would blow up noise in the shadows.
+    floor = 0.5 * dark.min()
+    gain = 0.85 / np.maximum(bright - floor, 8.0)
+    balanced = np.clip((rgb.astype(np.float32) - np.float32(floor)) * gain.astype(np.float32), 0.0, 1.2)
+    lab = _lab(np.minimum(balanced, 1.0))
+    _, a, b = _lab(np.array([[target]], np.float32) / 255.0)[0, 0]
+    along = (lab[:, :, 1] * a + lab[:, :, 2] * b) / np.hypot(a, b)
+    across = (lab[:, :, 2] * a - lab[:, :, 1] * b) / np.hypot(a, b)
+    return along - FOREIGN_HUE_COST * np.abs(across)
+
+
+def _lab(rgb: FloatImage) -> FloatImage:
+    return np.asarray(cv2.cvtColor(rgb.astype(np.float32), cv2.COLOR_RGB2LAB), dtype=np.float32)

@@ -1,0 +1,95 @@
+"""What one photograph says on its own: board, marker candidates, a low-passed map of the board."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from spavision.errors import InputError
+
+from .arrays import FloatImage, blur, sample, shrink, shrunk_place
+from .board import BoardView, find_board
+from .camera import project
+from .marker import Candidate, find_candidates
+from .photos import read_photo
+
+MAP_MARGIN_SQUARES = 8
+
+
+@dataclass(frozen=True)
+class BoardMap:
+    """Brightness of the photograph at lattice nodes, squares averaged away.
+
+    Parameters
+    ----------
+    values : float32 array, shape (rows, columns)
+        Grey levels; NaN outside the photograph.
+    origin : tuple of int
+        Column and row index of ``values[0, 0]`` in the photograph's lattice.
+    """
+
+    values: FloatImage
+    origin: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Observation:
+    """One photograph, measured on its own.
+
+    Parameters
+    ----------
+    name : str
+        File name.
+    problem : str
+        Why the photograph cannot be used; empty when it can.
+    width, height : int
+        Size, px.
+    focal_px : float or None
+        Focal length according to EXIF.
+    board : BoardView or None
+    candidates : tuple of Candidate
+        Spots that may be the marker.
+    map : BoardMap or None
+    """
+
+    name: str
+    problem: str
+    width: int = 0
+    height: int = 0
+    focal_px: float | None = None
+    board: BoardView | None = None
+    candidates: tuple[Candidate, ...] = ()
+    map: BoardMap | None = None
+
+
+def observe(path: Path, *, colour: tuple[int, int, int], diameter_squares: float | None) -> Observation:
+    """Read one photograph and measure board and marker candidates; problems are told, not raised."""
+    try:
+        photo = read_photo(path)
+    except InputError as error:
+        return Observation(path.name, str(error))
+    height, width = photo.gray.shape
+    board = find_board(photo.gray)
+    if board is None:
+        return Observation(path.name, "no board found in view", width, height, photo.focal_px)
+    candidates = find_candidates(photo.rgb, board, colour=colour, diameter_squares=diameter_squares)
+    return Observation(
+        path.name, "", width, height, photo.focal_px, board, candidates, _board_map(photo.gray, board)
+    )
+
+
+def _board_map(gray: FloatImage, board: BoardView) -> BoardMap:
+    low = board.indices.min(axis=0) - MAP_MARGIN_SQUARES
+    high = board.indices.max(axis=0) + MAP_MARGIN_SQUARES
+    columns, rows = np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1))
+    nodes = np.stack([columns, rows], axis=-1).reshape(-1, 2).astype(float)
+    pixels = project(board.camera, board.pose, nodes).reshape(*columns.shape, 2)
+    factor = min(1.0, 4.0 / board.pitch_px)
+    smooth = blur(shrink(gray, factor), 0.9 * board.pitch_px * factor)
+    values = sample(smooth, shrunk_place(pixels, factor))
+    height, width = gray.shape
+    inside = (pixels >= 0).all(axis=-1) & (pixels[..., 0] < width) & (pixels[..., 1] < height)
+    values[~inside] = np.nan
+    return BoardMap(values, (int(low[0]), int(low[1])))

@@ -1,0 +1,141 @@
+"""Pressures of the photographs: from their names, from a table, or from a step the user states."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from spavision.errors import InputError, InputWarning
+
+from .arrays import FloatArray
+from .photos import natural_key
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+KPA_PER_UNIT = {"pa": 1e-3, "hpa": 0.1, "kpa": 1.0, "mpa": 1e3, "mbar": 0.1, "bar": 100.0, "psi": 6.894757}
+# MPa alone is told apart from a milli-pascal by nobody's file names, so case does not matter.
+
+WITH_UNIT = re.compile(
+    r"(\d+[a-z](?=\d))?(?<![\d.,])(\d+(?:[.,]\d+)?)\s?[_-]?(hpa|kpa|mpa|pa|mbar|bar|psi)(?![a-z])", re.I
+)
+WITH_P = re.compile(r"(?<![a-z\d])p[_-]?(\d+(?:[.,]\d+)?)(?![a-z\d.,]*\d)", re.I)
+SUFFIX = re.compile(r"\.(jpe?g|png|tiff?|bmp|webp)$", re.I)
+
+
+def pressures_from_names(names: Sequence[str]) -> FloatArray:
+    """Read each photograph's pressure from its name, kPa.
+
+    Understood are a number with a unit (``IMG_0003_010kPa.jpg``, ``5kPa.png``, ``0.05bar.tif``) or, where no
+    name has a unit, one number after the letter p (``p005.jpg``). Bare numbers are counters as often as
+    pressures, so they are refused.
+
+    Returns
+    -------
+    array, shape (n,)
+        Pressures in the order of ``names``.
+
+    Raises
+    ------
+    InputError
+        Listing the names whose pressure cannot be told, or is told twice.
+    """
+    stems = [SUFFIX.sub("", name) for name in names]
+    told = [_with_unit(stem) for stem in stems]
+    if not any(told):
+        told = [[float(text.replace(",", ".")) for text in WITH_P.findall(stem)] for stem in stems]
+    unclear = [name for name, values in zip(names, told, strict=True) if len(set(values)) != 1]
+    if unclear:
+        raise InputError(
+            f"the pressure cannot be told from the name of {_listed(unclear)}; name photos like "
+            "IMG_0003_010kPa.jpg or p005.jpg, or give --pressures CSV (photo, pressure_kPa)"
+        )
+    pressures = np.array([values[0] for values in told])
+    _refuse_duplicates(names, pressures)
+    return pressures
+
+
+def pressures_from_table(frame: pd.DataFrame, names: Sequence[str]) -> FloatArray:
+    """Look up each photograph's pressure in a table with the columns ``photo`` and ``pressure_kPa``.
+
+    Rows of photographs that are not there are left alone, with an `InputWarning`.
+
+    Raises
+    ------
+    InputError
+        If a column is missing, a pressure is no number, or a photograph is absent or listed twice.
+    """
+    missing = [column for column in ("photo", "pressure_kPa") if column not in frame.columns]
+    if missing:
+        raise InputError(
+            f"the pressure table lacks the column {' and '.join(missing)}; "
+            f"it has {', '.join(map(str, frame.columns))}"
+        )
+    listed: dict[str, float] = {}
+    for photo, value in zip(frame["photo"].astype(str).str.strip(), frame["pressure_kPa"], strict=True):
+        if photo in listed:
+            raise InputError(f"the pressure table lists {photo} twice; keep one row a photo")
+        try:
+            listed[photo] = float(value)
+        except (TypeError, ValueError) as error:
+            raise InputError(
+                f"the pressure of {photo} in the pressure table is {value!r}; expected a number"
+            ) from error
+        if not np.isfinite(listed[photo]):
+            raise InputError(f"the pressure of {photo} in the pressure table is empty; expected a number")
+    absent = [name for name in names if name not in listed]
+    if absent:
+        raise InputError(
+            f"the pressure table has no row for {_listed(absent)}; add one, or move the photos away"
+        )
+    idle = sorted(set(listed) - set(names), key=natural_key)
+    if idle:
+        message = f"the pressure table lists {_listed(idle)}, which the folder does not hold"
+        warnings.warn(message, InputWarning, stacklevel=2)
+    pressures = np.array([listed[name] for name in names])
+    _refuse_duplicates(names, pressures)
+    return pressures
+
+
+def pressures_from_step(names: Sequence[str], step_kPa: float) -> FloatArray:
+    """Count up from 0 in equal steps along the natural order of the names, kPa.
+
+    Raises
+    ------
+    InputError
+        If the step is not positive.
+    """
+    if not (np.isfinite(step_kPa) and step_kPa > 0):
+        raise InputError(f"--pressure-step-kpa is {step_kPa:g}; expected a number above 0")
+    order = sorted(range(len(names)), key=lambda k: natural_key(names[k]))
+    pressures = np.empty(len(names))
+    pressures[order] = np.arange(len(names)) * step_kPa
+    return pressures
+
+
+def _with_unit(stem: str) -> list[float]:
+    """Every pressure with a unit in a name; a letter for a decimal point (0p5kPa) makes it unclear."""
+    found = WITH_UNIT.findall(stem)
+    if any(letter_before for letter_before, _, _ in found):
+        return [np.nan, np.inf]
+    return [
+        round(float(number.replace(",", ".")) * KPA_PER_UNIT[unit.lower()], 9) for _, number, unit in found
+    ]
+
+
+def _refuse_duplicates(names: Sequence[str], pressures: FloatArray) -> None:
+    values, counts = np.unique(pressures, return_counts=True)
+    if (counts > 1).any():
+        value = values[counts > 1][0]
+        same = [name for name, pressure in zip(names, pressures, strict=True) if pressure == value]
+        raise InputError(f"{_listed(same)} all claim {value:g} kPa; keep one photo a pressure")
+
+
+def _listed(names: Sequence[str]) -> str:
+    shown = ", ".join(names[:8])
+    return shown if len(names) <= 8 else f"{shown} and {len(names) - 8} more"

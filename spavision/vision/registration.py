@@ -1,0 +1,139 @@
+"""Which corner is which: one index origin for all photographs, and which of them share a camera position."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from .arrays import FloatImage, IntArray
+from .board import BoardView
+from .camera import to_plane
+from .observe import BoardMap, Observation
+
+WIDEST_SHIFT_SQUARES = 20
+SMALLEST_CERTAINTY = 3.0
+"""Standard errors by which the best shift must lead for its index to be trusted."""
+
+BLOCK_SQUARES = 6
+
+LARGEST_DIFFERENCE = 0.15
+"""Difference of brightness, relative to the board's, at which two places simply count as different."""
+
+STILL_PX = 0.04
+"""Lattice motion up to which the camera counts as unmoved."""
+
+
+@dataclass(frozen=True)
+class Registration:
+    """Index shift of one photograph to the reference photograph.
+
+    Parameters
+    ----------
+    shift : int array, shape (2,)
+        Add to the photograph's indices.
+    certainty : float
+        Lead of this shift over the next best ones, in standard errors; infinite for an unmoved camera.
+    """
+
+    shift: IntArray
+    certainty: float
+
+
+def register(reference: Observation, other: Observation) -> Registration:
+    """Find the index shift between two photographs of the same board.
+
+    An unmoved camera shows the lattice at the same pixels. A bump of just a whole number of squares does so
+    too, so the low-passed maps are correlated in either case; the lattice decides unless the maps contradict.
+    """
+    assert reference.board is not None
+    assert other.board is not None
+    assert reference.map is not None
+    assert other.map is not None
+    seen = to_plane(reference.board.camera, reference.board.pose, other.board.pixels)
+    offset = seen - other.board.indices
+    middle = np.median(offset, axis=0)
+    spread = float(np.median(np.linalg.norm(offset - middle, axis=1)))
+    nearest = np.rint(middle).astype(np.intp)
+    still = spread < 0.08 and float(np.abs(middle - nearest).max()) < 0.12 and nearest.sum() % 2 == 0
+    one_map, other_map = _levelled(reference.map), _levelled(other.map)
+    costs = _disagreements(one_map, other_map)
+    best = min(costs, key=lambda shift: costs[shift])
+    rivals = sorted((shift for shift in costs if shift != best), key=lambda shift: costs[shift])
+    if still and costs.get((int(nearest[0]), int(nearest[1])), np.inf) < 1.3 * costs[best]:
+        return Registration(nearest, np.inf)
+    certainty = min((_certainty(one_map, other_map, best, rival) for rival in rivals[:5]), default=0.0)
+    return Registration(np.array(best, dtype=np.intp), certainty)
+
+
+def same_position(first: BoardView, second: BoardView, shift: IntArray) -> bool:
+    """Tell whether two photographs show the lattice at the same pixels.
+
+    ``shift`` takes the second's indices to the first's. An affine motion is fitted to the common corners, so
+    that noise averages out and the slightest turn shows at the board's rim.
+    """
+    rows_first, rows_second = common_rows(first.indices, second.indices + shift)
+    if len(rows_first) < 30:
+        return False
+    pixels = first.pixels[rows_first]
+    motion = second.pixels[rows_second] - pixels
+    local = (pixels - pixels.mean(axis=0)) / max(float(np.ptp(pixels, axis=0).max()), 1.0)
+    design = np.column_stack([np.ones(len(local)), local])
+    keep = np.linalg.norm(motion - np.median(motion, axis=0), axis=1) < 1.0
+    if keep.sum() < 30:
+        return False
+    coefficients, *_ = np.linalg.lstsq(design[keep], motion[keep], rcond=None)
+    rest = motion[keep] - design[keep] @ coefficients
+    error = 4.0 * float(rest.std()) / np.sqrt(keep.sum())
+    return bool(np.abs(design @ coefficients).max() < STILL_PX + error)
+
+
+def common_rows(first: IntArray, second: IntArray) -> tuple[IntArray, IntArray]:
+    """Rows of two index tables that hold the same node."""
+    place = {node: row for row, node in enumerate(map(tuple, second.tolist()))}
+    pairs = [(row, place[node]) for row, node in enumerate(map(tuple, first.tolist())) if node in place]
+    table = np.array(pairs, dtype=np.intp).reshape(-1, 2)
+    return table[:, 0], table[:, 1]
+
+
+def _disagreements(reference: BoardMap, other: BoardMap) -> dict[tuple[int, int], float]:
+    """Mean disagreement of the two maps for every shift that keeps the colour of squares."""
+    reach = range(-WIDEST_SHIFT_SQUARES, WIDEST_SHIFT_SQUARES + 1)
+    costs = {}
+    for shift in ((dx, dy) for dy in reach for dx in reach if (dx + dy) % 2 == 0):
+        difference = _difference(reference, other, shift)
+        defined = np.isfinite(difference)
+        if defined.sum() > 60:
+            costs[shift] = float(difference[defined].mean())
+    return costs
+
+
+def _difference(reference: BoardMap, other: BoardMap, shift: tuple[int, int]) -> FloatImage:
+    """Capped difference of the two maps over the reference map's nodes; NaN where they do not overlap."""
+    rows, columns = reference.values.shape
+    left, top = np.array(other.origin) - np.array(reference.origin) + shift
+    x0, y0 = max(0, left), max(0, top)
+    x1, y1 = min(columns, left + other.values.shape[1]), min(rows, top + other.values.shape[0])
+    result = np.full_like(reference.values, np.nan)
+    if x1 > x0 and y1 > y0:
+        difference = reference.values[y0:y1, x0:x1] - other.values[y0 - top : y1 - top, x0 - left : x1 - left]
+        # The actuator moves: where it was and where it is count for no more than the cap.
+        result[y0:y1, x0:x1] = np.minimum(np.abs(difference), LARGEST_DIFFERENCE)
+    return result
+
+
+def _certainty(reference: BoardMap, other: BoardMap, best: tuple[int, int], rival: tuple[int, int]) -> float:
+    """Lead of one shift over another in standard errors, taken over blocks of the board.
+
+    Neighbouring nodes share shadows and occluders, blocks hardly do.
+    """
+    lead = _difference(reference, other, rival) - _difference(reference, other, best)
+    rows, columns = (size // BLOCK_SQUARES for size in lead.shape)
+    blocks = lead[: rows * BLOCK_SQUARES, : columns * BLOCK_SQUARES]
+    sums = np.nansum(blocks.reshape(rows, BLOCK_SQUARES, columns, BLOCK_SQUARES), axis=(1, 3))
+    return float(sums.sum() / max(np.sqrt((sums**2).sum()), 1e-9))
+
+
+def _levelled(board_map: BoardMap) -> BoardMap:
+    """Brightness over the board's typical brightness: exposure drops out."""
+    return replace(board_map, values=board_map.values / max(float(np.nanmedian(board_map.values)), 1.0))

@@ -1,0 +1,138 @@
+"""The marker's rim to a fraction of a pixel: radial profiles, half contrast."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .arrays import FloatArray, FloatImage, sample
+from .board import BoardView
+from .camera import project, to_plane
+from .circle import fit_circle
+
+N_RAYS = 96
+SAMPLES_PER_RADIUS = 24
+OUTER_RADII = 1.9
+"""Length of a ray, in radii."""
+
+
+@dataclass(frozen=True)
+class Rim:
+    """Edge points of a marker candidate.
+
+    Parameters
+    ----------
+    pixels : array, shape (n, 2)
+        One point a ray, in order of angle; NaN where a ray shows no edge.
+    contrast : float
+        Step between inside and outside over the noise of the outside.
+    """
+
+    pixels: FloatArray
+    contrast: float
+
+
+def find_rim(
+    image: FloatImage, board: BoardView, centre_px: FloatArray, radius_squares: float
+) -> tuple[Rim, FloatArray, float] | None:
+    """Find the rim about an approximate centre; return it with the refined centre (px) and radius (squares).
+
+    Rays run in the plane of the board, so that a tilted camera's ellipse becomes a circle.
+
+    Parameters
+    ----------
+    image : float32 array, shape (height, width, 3)
+        Colours, lightly smoothed where they are noisy.
+    board : BoardView
+        The board's lattice in this photograph.
+    centre_px : array, shape (2,)
+        Approximate centre.
+    radius_squares : float
+        Approximate radius, in squares of the board.
+    """
+    centre, radius = centre_px, radius_squares
+    rim = None
+    for _ in range(3):
+        rim = _edges(image, board, centre, radius)
+        if rim is None:
+            return None
+        points = to_plane(board.camera, board.pose, rim.pixels)
+        circle = fit_circle(points)
+        if circle is None:
+            return None
+        # A wild radius means a shape that is no disc; the approximate one is kept for the next look.
+        radius = circle.radius if 0.6 < circle.radius / radius < 1.6 else radius
+        centre = project(board.camera, board.pose, circle.centre[None])[0]
+    assert rim is not None
+    return rim, centre, radius
+
+
+def _edges(image: FloatImage, board: BoardView, centre_px: FloatArray, radius: float) -> Rim | None:
+    """Half-contrast crossings along rays about a centre."""
+    profiles, distances, angles = _profiles(image, board, centre_px, radius)
+    inner = profiles[:, distances < 0.6].reshape(-1, 3)
+    outer = profiles[:, (distances > 1.3) & (distances < 1.7)].reshape(-1, 3)
+    inside = np.median(inner, axis=0)
+    step = inside - np.median(outer, axis=0)
+    # The direction in colour that separates inside from outside best against the scatter of both.
+    scatter = np.cov((inner - inside).T) + np.cov(outer.T) + np.eye(3) * 4.0
+    direction = np.linalg.solve(scatter, step)
+    length = float(step @ direction)
+    if length < 1e-6:
+        return None
+    values = (profiles - inside) @ (direction / length)  # 0 inside, −1 at the typical outside
+    crossing = _half_contrast(values, distances)
+    centre = to_plane(board.camera, board.pose, centre_px[None])[0]
+    ring = np.column_stack([np.cos(angles), np.sin(angles)])
+    points = centre + (radius * crossing)[:, None] * ring
+    pixels = np.full((N_RAYS, 2), np.nan)
+    found = np.isfinite(crossing)
+    pixels[found] = project(board.camera, board.pose, points[found])
+    return Rim(pixels, float(np.sqrt(length)))
+
+
+def _profiles(
+    image: FloatImage, board: BoardView, centre_px: FloatArray, radius: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Colours along rays: shape (rays, samples, 3); distances in radii; angles."""
+    angles = np.arange(N_RAYS, dtype=float) * (2.0 * np.pi / N_RAYS)
+    distances = np.arange(int(OUTER_RADII * SAMPLES_PER_RADIUS), dtype=float) / SAMPLES_PER_RADIUS
+    centre = to_plane(board.camera, board.pose, centre_px[None])[0]
+    ring = np.column_stack([np.cos(angles), np.sin(angles)])
+    points = centre + radius * distances[None, :, None] * ring[:, None, :]
+    pixels = project(board.camera, board.pose, points.reshape(-1, 2)).reshape(N_RAYS, len(distances), 2)
+    sampled = sample(image, pixels)
+    return sampled.astype(float), distances, angles
+
+
+def _half_contrast(values: FloatArray, distances: FloatArray) -> FloatArray:
+    """Distance of the half-contrast crossing along each ray, NaN where there is none.
+
+    Each ray's own levels inside (0.3 to 0.65 radii) and outside (from 1.35 radii) set its half contrast, the
+    outside being averaged over neighbouring rays.
+    """
+    kernel = np.array([0.25, 0.5, 0.25])
+    smooth = np.apply_along_axis(lambda row: np.convolve(np.pad(row, 1, "edge"), kernel, "valid"), 1, values)
+    near = (distances > 0.3) & (distances < 0.65)
+    far = (distances > 1.35) & (distances < 1.75)
+    inside = _circular_median(np.median(smooth[:, near], axis=1), 9)
+    outside = _circular_median(np.median(smooth[:, far], axis=1), 9)
+    half = 0.5 * (inside + outside)
+    clear = (inside - outside) > 0.35
+    below = smooth < half[:, None]
+    falls = ~below[:, :-1] & below[:, 1:] & (distances[None, 1:] > 0.4)
+    crossing = np.full(len(values), np.nan)
+    for ray in np.flatnonzero(clear & falls.any(axis=1)):
+        places = np.flatnonzero(falls[ray])
+        place = places[np.argmin(np.abs(distances[places] - 1.0))]
+        before, after = smooth[ray, place], smooth[ray, place + 1]
+        share = (before - half[ray]) / max(before - after, 1e-12)
+        crossing[ray] = distances[place] + share * (distances[place + 1] - distances[place])
+    return crossing
+
+
+def _circular_median(values: FloatArray, width: int) -> FloatArray:
+    half = width // 2
+    padded = np.concatenate([values[-half:], values, values[:half]])
+    return np.median(np.lib.stride_tricks.sliding_window_view(padded, width), axis=1)

@@ -1,0 +1,154 @@
+"""Corner candidates: saddle response scaled to the square pitch, sub-pixel position, ring test."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from .arrays import BoolArray, FloatArray, FloatImage, IntArray, blur, sample
+from .spectra import LatticeField
+
+RING_SAMPLES = 24
+RING_RADII = (0.28, 0.42)
+"""Radii of the two sampled rings, in squares: clear of the blurred corner, short of the next one."""
+
+WINDOW_SQUARES = 0.3
+"""Half width of the sub-pixel window, in squares."""
+
+
+@dataclass(frozen=True)
+class Candidates:
+    """Corner candidates of one image.
+
+    Parameters
+    ----------
+    pixels : array, shape (n, 2)
+        Sub-pixel positions.
+    parity : array of +1 or −1, shape (n,)
+        +1 where the square to the lower right is bright.
+    quality : array, shape (n,)
+        Correlation of the ring with an ideal corner's, 0 to 1.
+    contrast : array, shape (n,)
+        Half the difference between bright and dark squares, grey levels.
+    """
+
+    pixels: FloatArray
+    parity: NDArray[np.int8]
+    quality: FloatArray
+    contrast: FloatArray
+
+    def take(self, rows: IntArray | BoolArray) -> Candidates:
+        """Return the candidates at the given rows."""
+        return Candidates(self.pixels[rows], self.parity[rows], self.quality[rows], self.contrast[rows])
+
+
+def find_saddles(gray: FloatImage, pitch_px: float) -> FloatArray:
+    """Return pixel positions of local maxima of the saddle response, shape (n, 2).
+
+    The response is Ixy² − Ixx Iyy of the image smoothed by a fifth of a square: positive only where the
+    surface bends up one way and down the other, whatever the corner's orientation.
+    """
+    smooth = blur(gray, max(0.18 * pitch_px, 0.7))
+    ixx = cv2.Sobel(smooth, cv2.CV_32F, 2, 0, ksize=3, scale=0.25)
+    iyy = cv2.Sobel(smooth, cv2.CV_32F, 0, 2, ksize=3, scale=0.25)
+    ixy = cv2.Sobel(smooth, cv2.CV_32F, 1, 1, ksize=3, scale=0.25)
+    response = ixy * ixy - ixx * iyy
+    reach = 2 * max(1, round(0.32 * pitch_px)) + 1
+    highest = cv2.dilate(response, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
+    # A corner is compared with the strongest of its surroundings: a shaded part of the board counts too.
+    step = max(1, round(pitch_px))
+    coarse = cv2.resize(highest, None, fx=1 / step, fy=1 / step, interpolation=cv2.INTER_AREA)
+    local = cv2.resize(cv2.blur(cv2.dilate(coarse, np.ones((7, 7))), (7, 7)), gray.shape[::-1])
+    peaks = (response >= highest) & (response > 0.06 * local) & (response > 1e-3)
+    border = max(2, round(0.45 * pitch_px))
+    peaks[:border] = peaks[-border:] = False
+    peaks[:, :border] = peaks[:, -border:] = False
+    rows, columns = np.nonzero(peaks)
+    return np.column_stack([columns, rows]).astype(float)
+
+
+def refine(gray: FloatImage, pixels: FloatArray, pitch_px: float) -> FloatArray:
+    """Refine corners to sub-pixel positions within a window of `WINDOW_SQUARES` about each.
+
+    A corner is the point to which every gradient in its window is perpendicular (Förstner; OpenCV's
+    ``cornerSubPix``). Corners that leave their window come back as NaN.
+    """
+    if len(pixels) == 0:
+        return pixels.reshape(0, 2)
+    half = max(2, round(WINDOW_SQUARES * pitch_px))
+    height, width = gray.shape
+    margin = half + 2
+    inside = (
+        (pixels[:, 0] > margin)
+        & (pixels[:, 0] < width - 1 - margin)
+        & (pixels[:, 1] > margin)
+        & (pixels[:, 1] < height - 1 - margin)
+    )
+    refined = np.full_like(pixels, np.nan)
+    if not inside.any():
+        return refined
+    start = np.ascontiguousarray(pixels[inside], dtype=np.float32).reshape(-1, 1, 2)
+    criteria = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 30, 0.002)
+    found = cv2.cornerSubPix(gray, start.copy(), (half, half), (-1, -1), criteria).reshape(-1, 2)
+    moved = np.linalg.norm(found - start.reshape(-1, 2), axis=1)
+    found[moved > half] = np.nan
+    refined[inside] = found
+    return refined
+
+
+def ring_test(
+    gray: FloatImage, pixels: FloatArray, field_vectors: tuple[FloatArray, FloatArray]
+) -> tuple[NDArray[np.int8], FloatArray, FloatArray]:
+    """Compare rings about each point with an ideal corner's.
+
+    The rings are ellipses in the local lattice vectors, so that an ideal corner gives sign(sin 2φ) whatever
+    the board's perspective.
+
+    Parameters
+    ----------
+    gray : float32 array
+        The photograph, smoothed a little where it is noisy.
+    pixels : array, shape (n, 2)
+        Points to test.
+    field_vectors : pair of arrays, shape (n, 2)
+        Lattice vectors at those points.
+
+    Returns
+    -------
+    parity, quality, contrast : arrays, shape (n,)
+        As in `Candidates`.
+    """
+    angle = (np.arange(RING_SAMPLES) + 0.5) * (2.0 * np.pi / RING_SAMPLES)
+    across, down = field_vectors
+    quality, contrast = np.zeros(len(pixels)), np.zeros(len(pixels))
+    template = np.sin(2.0 * angle).astype(np.float32)
+    template /= np.linalg.norm(template)
+    for radius in RING_RADII:
+        points = (
+            pixels[:, None, :]
+            + radius * np.cos(angle)[None, :, None] * across[:, None, :]
+            + radius * np.sin(angle)[None, :, None] * down[:, None, :]
+        )
+        values = sample(gray, points)
+        values -= values.mean(axis=1, keepdims=True)
+        projection = values @ template
+        norm = np.linalg.norm(values, axis=1)
+        # A square wave correlates with its own sine at 0.9: that is the best a sharp corner can reach.
+        quality += projection / np.maximum(norm, 1e-6) / len(RING_RADII)
+        contrast += np.abs(projection) * np.sqrt(2.0 / RING_SAMPLES) / len(RING_RADII)
+    parity = np.where(quality >= 0, 1, -1).astype(np.int8)
+    return parity, np.clip(np.abs(quality) / 0.95, 0.0, 1.0), contrast
+
+
+def find_candidates(gray: FloatImage, field: LatticeField) -> Candidates:
+    """Find all corner candidates of an image whose lattice field is known."""
+    pitch = field.pitch_px
+    pixels = refine(gray, find_saddles(gray, pitch), pitch)
+    pixels = pixels[np.isfinite(pixels).all(axis=1)]
+    tested = blur(gray, max(0.1 * pitch, 0.5))
+    parity, quality, contrast = ring_test(tested, pixels, field.vectors(pixels))
+    good = quality > 0.6
+    return Candidates(pixels[good], parity[good], quality[good], contrast[good])

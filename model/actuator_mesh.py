@@ -126,7 +126,7 @@ def _grid(geometry: ActuatorGeometry, level: MeshLevel) -> TensorGrid:
 
 
 def _lines(intervals: list[tuple[float, int]]) -> FloatArray:
-    """Grid lines of consecutive intervals (length, number of elements), from 0; empty intervals are left out."""
+    """Grid lines from 0 of consecutive intervals (length, number of elements), empty ones left out."""
     steps = [np.full(count, length / count) for length, count in intervals if length > 0.0]
     return np.concatenate([[0.0], np.cumsum(np.concatenate(steps))])
 

@@ -8,29 +8,28 @@ import numpy as np
 from numba import njit
 
 from .elements import FloatArray, IntArray, reference_face
-from .hex_mesh import HexMesh
 
 
 @dataclass(frozen=True)
 class Cavity:
-    """Closed, or cut only by the plane z = 0, surface around the gas.
+    """The surface around the gas, closed or cut by planes of symmetry.
 
-    The volume is V = ⅓ ∫ x·n da, which needs no face on the cut z = 0: x·n vanishes there.
+    The volume is V = ∫ Σ cᵢ xᵢ nᵢ da with Σ cᵢ = 1. Faces on a cut may be left out where the integrand
+    vanishes there: equal weights do for cuts through the origin; for other cuts across an axis that axis
+    has to have the weight 0 (a tube between z = 0 and z = h: ½, ½, 0), else the forces are wrong.
 
     Parameters
     ----------
     faces : array, shape (n_faces, n_face_nodes)
         Normals point out of the gas.
     order : int
+    axis_weights : tuple of float
+        The cᵢ.
     """
 
     faces: IntArray
     order: int
-
-    @classmethod
-    def of(cls, mesh: HexMesh) -> Cavity:
-        """Return the cavity of a mesh."""
-        return cls(faces=mesh.cavity_faces, order=mesh.order)
+    axis_weights: tuple[float, float, float] = (1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0)
 
     def volume(self, position: FloatArray) -> float:
         """Return the enclosed volume in mm³ (half of it in a half model).
@@ -42,8 +41,8 @@ class Cavity:
         """
         table = reference_face(self.order)
         points, along, across = self._at_points(position)
-        triple = np.einsum("fqi,fqi->fq", points, np.cross(along, across))
-        return float(np.einsum("fq,q->", triple, table.weights) / 3.0)
+        triple = np.einsum("i,fqi,fqi->fq", self.axis_weights, points, np.cross(along, across))
+        return float(np.einsum("fq,q->", triple, table.weights))
 
     def forces(self, position: FloatArray) -> FloatArray:
         """Return the derivative of the volume with respect to each face's nodes.
@@ -55,11 +54,12 @@ class Cavity:
         """
         table = reference_face(self.order)
         points, along, across = self._at_points(position)
-        weights = table.weights[None, :, None] / 3.0
+        weights = table.weights[None, :, None]
+        scaled = points * np.asarray(self.axis_weights)
         return (
-            np.einsum("fqi,qa->fia", np.cross(along, across) * weights, table.values)
-            + np.einsum("fqi,qa->fia", np.cross(across, points) * weights, table.tangents[:, 0])
-            + np.einsum("fqi,qa->fia", np.cross(points, along) * weights, table.tangents[:, 1])
+            np.einsum("fqi,qa->fia", np.cross(along, across) * weights * self.axis_weights, table.values)
+            + np.einsum("fqi,qa->fia", np.cross(across, scaled) * weights, table.tangents[:, 0])
+            + np.einsum("fqi,qa->fia", np.cross(scaled, along) * weights, table.tangents[:, 1])
         )
 
     def hessians(self, position: FloatArray) -> FloatArray:
@@ -74,7 +74,7 @@ class Cavity:
         vectors = np.stack(self._at_points(position), axis=2)
         functions = np.stack([table.values, table.tangents[:, 0], table.tangents[:, 1]], axis=1)
         out = np.empty((len(self.faces), 3, self.faces.shape[1], self.faces.shape[1]))
-        _hessians(vectors, functions, table.weights / 3.0, out)
+        _hessians(vectors, functions, table.weights, np.asarray(self.axis_weights), out)
         return out
 
     def _at_points(self, position: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -87,20 +87,27 @@ class Cavity:
 
 
 @njit(cache=True)
-def _hessians(vectors: FloatArray, functions: FloatArray, weights: FloatArray, out: FloatArray) -> None:
-    """Second derivatives of det[x, x_s, x_t]: ε_ijk v^m_k for each pair of the three vectors."""
+def _hessians(
+    vectors: FloatArray, functions: FloatArray, weights: FloatArray, axis_weights: FloatArray, out: FloatArray
+) -> None:
+    """Second derivatives of det[c x, x_s, x_t]: ε_ijk times the vector left over, for each pair."""
     n_faces, n_points = vectors.shape[:2]
     n_nodes = functions.shape[2]
     out[:] = 0.0
     for f in range(n_faces):
         for q in range(n_points):
             for block in range(3):
-                # (x, y), (y, z), (x, z): the component left over and the sign of the permutation
-                left = (block + 2) % 3 if block < 2 else 1
+                # (x, y), (y, z), (x, z): components i and j, the one left over, the permutation's sign
+                i, j, left = (block % 2, block % 2 + 1, (block + 2) % 3) if block < 2 else (0, 2, 1)
                 sign = weights[q] if block < 2 else -weights[q]
                 for m in range(3):
-                    factor = sign * vectors[f, q, m, left]
                     first, second = functions[q, (m + 1) % 3], functions[q, (m + 2) % 3]
+                    # The weight goes by the component that the first vector, the position, takes.
+                    taken = (left, j, i)[m], (left, i, j)[m]
+                    forward = sign * vectors[f, q, m, left] * axis_weights[taken[0]]
+                    backward = sign * vectors[f, q, m, left] * axis_weights[taken[1]]
                     for a in range(n_nodes):
                         for b in range(n_nodes):
-                            out[f, block, a, b] += factor * (first[a] * second[b] - second[a] * first[b])
+                            out[f, block, a, b] += (
+                                forward * first[a] * second[b] - backward * second[a] * first[b]
+                            )

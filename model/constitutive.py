@@ -8,6 +8,7 @@ import numpy as np
 
 from .element_geometry import ElementGeometry
 from .elements import FloatArray, IntArray
+from .hex_mesh import HexMesh
 from .materials.slack_fibre import SlackFibre
 from .materials.solid import SolidMaterial
 from .stress_kernels import add_fibre, deformation, principal_moduli, principal_stress
@@ -50,6 +51,26 @@ class Deformation:
     def is_admissible(self) -> bool:
         """Whether every volume ratio is finite and positive."""
         return bool(np.all(self.J > 0.0))
+
+
+def material_groups(mesh: HexMesh, materials: dict[str, SolidMaterial]) -> tuple[MaterialGroup, ...]:
+    """Return one group for each distinct material, in the order of the regions."""
+    regions: dict[SolidMaterial, list[int]] = {}
+    for code, name in enumerate(mesh.region_names):
+        regions.setdefault(materials[name], []).append(code)
+    groups = (
+        MaterialGroup(material, np.flatnonzero(np.isin(mesh.region, codes)))
+        for material, codes in regions.items()
+    )
+    return tuple(group for group in groups if len(group.elements))
+
+
+def per_element(groups: tuple[MaterialGroup, ...], n_elements: int, attribute: str) -> FloatArray:
+    """Return a property of the material of each element, shape (n_elements,)."""
+    values = np.empty(n_elements)
+    for group in groups:
+        values[group.elements] = getattr(group.material, attribute)
+    return values
 
 
 def deform(displacement: FloatArray, elements: IntArray, geometry: ElementGeometry) -> Deformation:

@@ -54,7 +54,7 @@ def element_geometry(mesh: HexMesh) -> ElementGeometry:
 
 
 def _orthonormal_modes(table: ReferenceElement, corners: FloatArray, volumes: FloatArray) -> FloatArray:
-    """Span of {1, X, Y, Z} (or of {1}), made orthonormal so that the pressure's mass matrix is the identity."""
+    """Span of {1, X, Y, Z} (or of {1}), orthonormal so that the pressure's mass matrix is the identity."""
     modes = np.ones((*volumes.shape, table.n_pressure_modes))
     if table.n_pressure_modes == 4:
         position = np.einsum("qa,eai->eqi", table.values, corners)

@@ -8,7 +8,14 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from .cavity import Cavity
-from .constitutive import Deformation, MaterialGroup, deform, isochoric_energy, stress_and_moduli
+from .constitutive import (
+    Deformation,
+    deform,
+    isochoric_energy,
+    material_groups,
+    per_element,
+    stress_and_moduli,
+)
 from .element_geometry import ElementGeometry, element_geometry
 from .element_kernels import element_forces, element_tangents
 from .elements import FloatArray, IntArray, reference_element
@@ -58,8 +65,9 @@ class Balance:
 
     Parameters
     ----------
-    condensed : array, shape (n_free,)
-        Internal minus external forces, the solid's pressure eliminated as κ(J − 1).
+    condensed : array, shape (n_nodes, 3)
+        Internal minus external forces, the solid's pressure eliminated as κ(J − 1); at the supports,
+        the reactions.
     mixed_norm, load_norm : float
         Norms of the forces out of balance under the state's own pressure and of the external forces.
     projected_pressure : array, shape (n_elements, n_modes)
@@ -93,6 +101,8 @@ class Equilibrium:
         Displacement components that the supports hold.
     gravity_direction : tuple of float
         Unit vector.
+    cavity_axis_weights : tuple of float
+        See `Cavity`; the default suits a cavity cut by planes through the origin.
     """
 
     def __init__(
@@ -102,12 +112,13 @@ class Equilibrium:
         *,
         is_fixed: BoolArray,
         gravity_direction: tuple[float, float, float] = (0.0, 1.0, 0.0),
+        cavity_axis_weights: tuple[float, float, float] = (1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0),
     ) -> None:
         self.mesh = mesh
         self.geometry: ElementGeometry = element_geometry(mesh)
-        self.cavity = Cavity.of(mesh)
-        self.groups = _material_groups(mesh, materials)
-        self.bulk_modulus_MPa = _per_element(self.groups, len(mesh.elements), "bulk_modulus_MPa")
+        self.cavity = Cavity(mesh.cavity_faces, mesh.order, cavity_axis_weights)
+        self.groups = material_groups(mesh, materials)
+        self.bulk_modulus_MPa = per_element(self.groups, len(mesh.elements), "bulk_modulus_MPa")
         self.is_free = ~is_fixed
         self.pattern: TangentPattern = tangent_pattern(mesh.elements, mesh.cavity_faces, _numbering(is_fixed))
         self._weight = self._body_force(np.asarray(gravity_direction))
@@ -129,7 +140,7 @@ class Equilibrium:
         condensed = self._scatter(forces + np.einsum("em,emia->eia", projected, operator)) - external
         mixed = self._scatter(forces + np.einsum("em,emia->eia", state.pressure, operator)) - external
         return Balance(
-            condensed=condensed[self.is_free],
+            condensed=condensed,
             mixed_norm=float(np.linalg.norm(mixed[self.is_free])),
             load_norm=float(np.linalg.norm(external[self.is_free])),
             projected_pressure=projected,
@@ -216,29 +227,10 @@ class Equilibrium:
 
     def _body_force(self, direction: FloatArray) -> FloatArray:
         """Nodal forces of the body's weight, shape (n_nodes, 3), in N."""
-        density = _per_element(self.groups, len(self.mesh.elements), "density_tonne_per_mm3")
+        density = per_element(self.groups, len(self.mesh.elements), "density_tonne_per_mm3")
         values = reference_element(self.mesh.order).values
         nodal_mass = np.einsum("e,eq,qa->ea", density, self.geometry.volumes, values)
         return self._scatter(GRAVITY_MM_PER_S2 * nodal_mass[:, None, :] * direction[None, :, None])
-
-
-def _material_groups(mesh: HexMesh, materials: dict[str, SolidMaterial]) -> tuple[MaterialGroup, ...]:
-    """One group for each distinct material, in the order of the regions."""
-    regions: dict[SolidMaterial, list[int]] = {}
-    for code, name in enumerate(mesh.region_names):
-        regions.setdefault(materials[name], []).append(code)
-    groups = (
-        MaterialGroup(material, np.flatnonzero(np.isin(mesh.region, codes)))
-        for material, codes in regions.items()
-    )
-    return tuple(group for group in groups if len(group.elements))
-
-
-def _per_element(groups: tuple[MaterialGroup, ...], n_elements: int, attribute: str) -> FloatArray:
-    values = np.empty(n_elements)
-    for group in groups:
-        values[group.elements] = getattr(group.material, attribute)
-    return values
 
 
 def _numbering(is_fixed: BoolArray) -> IntArray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from itertools import pairwise
 
 from spavision.errors import InputError
 
@@ -124,7 +125,7 @@ class ActuatorGeometry:
         """Volume of voids and channel, by arithmetic."""
         spans = self.void_spans_mm()
         voids = sum(end - begin for begin, end in spans) * self.void_width_mm * self.void_depth_mm
-        channel_length = sum(right[0] - left[1] for left, right in zip(spans, spans[1:], strict=False))
+        channel_length = sum(right[0] - left[1] for left, right in pairwise(spans))
         return voids + channel_length * self.channel_width_mm * self.channel_height_mm
 
     def _check_ranges(self) -> None:
@@ -140,5 +141,6 @@ class ActuatorGeometry:
     def _keep_below(self, name: str, value: float, other_name: str, other: float) -> None:
         if not value < other:
             raise InputError(
-                f"geometry: {name} is {value:g} mm and {other_name} is {other:g} mm, expected the first to be smaller"
+                f"geometry: {name} is {value:g} mm and {other_name} is {other:g} mm, "
+                "expected the first to be smaller"
             )

@@ -53,7 +53,8 @@ class PardisoSolver:
 
         self._pardiso = PyPardisoSolver(mtype=_SYMMETRIC_INDEFINITE)
         # iparm 1: take the values below, not the defaults; 2: METIS ordering; 8: no refinement steps;
-        # 10: pivots below 1e-8 are perturbed; 11, 13: neither scaling nor matching, as the tangent is well scaled.
+        # 10: pivots below 1e-8 are perturbed; 11, 13: neither scaling nor matching, the tangent being well
+        # scaled; 21: Bunch-Kaufman pivots.
         for index, value in ((1, 1), (2, 2), (8, 0), (10, 8), (11, 0), (13, 0), (21, 1), (24, 0)):
             self._pardiso.set_iparm(index, value)
         self._matrix: csr_array | None = None

@@ -90,7 +90,7 @@ def _iterate(
     """One Newton correction: the new state and the largest change of a displacement component."""
     try:
         solver.factorise(problem.tangent(state, load, balance))
-        correction = solver.solve(-balance.condensed)
+        correction = solver.solve(-balance.condensed[problem.is_free])
     except SingularTangentError as error:
         raise NotConvergedError("the tangent is singular") from error
     return problem.update(state, balance, correction), float(np.abs(correction).max())

@@ -148,7 +148,8 @@ def principal_moduli(
     r"""Assemble the isochoric spatial moduli (Lie derivative of the Kirchhoff stress).
 
     .. math:: c = \sum_{ij} (H_{ij} - 2\tau_i\delta_{ij})\,m_{ii}\otimes m_{jj}
-              + \sum_{i<j} 4\,\frac{\tau_i\lambda_j^2-\tau_j\lambda_i^2}{\lambda_i^2-\lambda_j^2}\,m_{ij}\otimes m_{ij}
+              + \sum_{i<j} 4\,\frac{\tau_i\lambda_j^2-\tau_j\lambda_i^2}{\lambda_i^2-\lambda_j^2}
+              \,m_{ij}\otimes m_{ij}
 
     with :math:`m_{ij}` the symmetric dyads of the principal directions, and the limit
     :math:`(H_{ii}-H_{ij})/2-\tau_i` for equal stretches.

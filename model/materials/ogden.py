@@ -12,7 +12,10 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Ogden:
-    r"""Ogden's law, :math:`W = \sum_i \mu_i/\alpha_i\,(\bar\lambda_1^{\alpha_i}+\bar\lambda_2^{\alpha_i}+\bar\lambda_3^{\alpha_i}-3)`.
+    r"""Ogden's law of any number of terms.
+
+    .. math:: W = \sum_i \frac{\mu_i}{\alpha_i}
+              (\bar\lambda_1^{\alpha_i} + \bar\lambda_2^{\alpha_i} + \bar\lambda_3^{\alpha_i} - 3)
 
     The initial shear modulus is ½ Σ μᵢαᵢ. Abaqus, CalculiX and FElupe write 2μ/α² for μ/α, so that
     their μ is μα/2 here.
@@ -38,14 +41,14 @@ class Ogden:
     def __post_init__(self) -> None:
         if len(self.mu_MPa) != len(self.alpha) or not self.mu_MPa:
             raise ValueError(
-                f"Ogden: {len(self.mu_MPa)} mu for {len(self.alpha)} alpha, expected one of each a term"
+                f"Ogden: {len(self.mu_MPa)} mu for {len(self.alpha)} alpha, expected as many of each"
             )
         if any(alpha == 0.0 for alpha in self.alpha):
             raise ValueError("Ogden: an alpha is 0, expected exponents other than 0")
         if not self.shear_modulus_MPa > 0.0:
             raise ValueError(
-                f"Ogden: the initial shear modulus ½ Σ mu alpha is {self.shear_modulus_MPa:g} MPa, expected a "
-                "positive one; the parameters may follow another convention"
+                f"Ogden: the initial shear modulus ½ Σ mu alpha is {self.shear_modulus_MPa:g} MPa, expected "
+                "a positive one; the parameters may follow another convention"
             )
 
     @property

@@ -46,8 +46,9 @@ class SlackFibre:
             raise ValueError(f"fibre direction {self.direction} is not a unit vector")
         if not (self.modulus_MPa >= 0.0 and self.slack_strain >= 0.0 and self.transition_half_width > 0.0):
             raise ValueError(
-                f"fibre modulus {self.modulus_MPa:g} MPa, slack strain {self.slack_strain:g} and transition "
-                f"half-width {self.transition_half_width:g}: expected the first two 0 or more, the last above 0"
+                f"fibre modulus {self.modulus_MPa:g} MPa, slack strain {self.slack_strain:g} and "
+                f"transition half-width {self.transition_half_width:g}: "
+                "expected the first two 0 or more, the last above 0"
             )
 
     def energy(self, stretch: FloatArray) -> FloatArray:

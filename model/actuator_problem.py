@@ -1,0 +1,54 @@
+"""The half actuator as an equilibrium problem: mesh, materials, clamp and symmetry."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .actuator_mesh import actuator_mesh
+from .composite import crimped_composite
+from .equilibrium import Equilibrium
+from .geometry import ActuatorGeometry
+from .materials.library import find_material
+from .materials.solid import SolidMaterial
+from .simulation import SimulationSettings
+
+
+def actuator_materials(*, crimp_ratio: float, settings: SimulationSettings) -> dict[str, SolidMaterial]:
+    """Return the material of each region of the actuator.
+
+    Raises
+    ------
+    InputError
+        If the crimp ratio or a material name is unusable.
+    """
+    solids = {
+        region: find_material(name).solid(bulk_to_shear=settings.bulk_to_shear)
+        for region, name in (
+            ("composite", settings.matrix_material),
+            ("strip A", settings.strip_a_material),
+            ("body", settings.body_material),
+            ("strip B", settings.strip_b_material),
+        )
+    }
+    solids["composite"] = crimped_composite(
+        solids["composite"], crimp_ratio=crimp_ratio, paper=settings.paper
+    )
+    return solids
+
+
+def actuator_problem(
+    geometry: ActuatorGeometry, *, crimp_ratio: float, settings: SimulationSettings
+) -> Equilibrium:
+    """Set up the half actuator: mesh, materials, clamp at y = 0 and symmetry at z = 0.
+
+    Raises
+    ------
+    InputError
+        If crimp ratio, material names or mesh level are unusable.
+    """
+    solids = actuator_materials(crimp_ratio=crimp_ratio, settings=settings)
+    mesh = actuator_mesh(geometry, level=settings.mesh_level)
+    is_fixed = np.zeros((len(mesh.nodes_mm), 3), dtype=bool)
+    is_fixed[mesh.node_sets["clamp"]] = True
+    is_fixed[mesh.node_sets["symmetry"], 2] = True
+    return Equilibrium(mesh, solids, is_fixed=is_fixed)

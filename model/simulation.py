@@ -1,0 +1,123 @@
+"""What a simulation is asked and what it found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from spavision.tip_path import TipPath
+
+from .composite import PaperLayer
+from .continuation import SteppingSettings
+from .elements import FloatArray
+from .geometry import ActuatorGeometry
+from .hex_mesh import HexMesh
+from .newton import NewtonSettings
+
+
+@dataclass(frozen=True)
+class SimulationSettings:
+    """Everything about a simulation that is not the actuator's shape, crimp ratio or pressure.
+
+    Parameters
+    ----------
+    mesh_level : str
+        ``draft``, ``default`` or ``fine``.
+    body_material, strip_a_material, strip_b_material, matrix_material : str
+        Names in the material library.
+    paper : PaperLayer
+    gravity : bool
+        Whether the actuator hangs under its own weight.
+    bulk_to_shear : float
+        Bulk over initial shear modulus of every silicone (assumed: nearly incompressible).
+    newton : NewtonSettings
+    stepping : SteppingSettings
+    """
+
+    mesh_level: str = "default"
+    body_material: str = "Mold Star 15"
+    strip_a_material: str = "Mold Star 15"
+    strip_b_material: str = "Mold Star 15"
+    matrix_material: str = "Ecoflex 00-30"
+    paper: PaperLayer = field(default_factory=PaperLayer)
+    gravity: bool = True
+    bulk_to_shear: float = 1000.0
+    newton: NewtonSettings = field(default_factory=NewtonSettings)
+    stepping: SteppingSettings = field(default_factory=SteppingSettings)
+
+
+@dataclass(frozen=True)
+class StepRecord:
+    """One accepted step of the ramp. Volumes, work and energy are the whole actuator's.
+
+    Parameters
+    ----------
+    pressure_kPa : float
+    newton_iterations : int
+    residual : float
+        Forces out of balance over external forces.
+    negative_pivots : int or None
+        Negative eigenvalues of the tangent near the step's end (0: stable), where the solver tells.
+    enclosed_volume_mm3 : float
+    strain_energy_mJ : float
+        Gained since the hanging state.
+    gas_work_mJ : float
+        ∫ p dV since then, by the trapezoidal rule over the steps.
+    gravity_work_mJ : float
+        Work of the weight since then.
+    """
+
+    pressure_kPa: float
+    newton_iterations: int
+    residual: float
+    negative_pivots: int | None
+    enclosed_volume_mm3: float
+    strain_energy_mJ: float
+    gas_work_mJ: float
+    gravity_work_mJ: float
+
+    @property
+    def energy_imbalance_mJ(self) -> float:
+        """Work done less energy stored: the error of the trapezoidal rule, falling with the step squared."""
+        return self.gas_work_mJ + self.gravity_work_mJ - self.strain_energy_mJ
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """What a simulation found.
+
+    Parameters
+    ----------
+    geometry : ActuatorGeometry
+    crimp_ratio : float
+    settings : SimulationSettings
+    mesh : HexMesh
+        Of the half z ≥ 0.
+    tip_path : TipPath
+        One row for each asked pressure; status ``missing`` and the reason where it was not reached.
+    displacement_mm : array, shape (n_pressures, n_nodes, 3)
+        From the unstressed shape (not from the hanging one); NaN where not reached.
+    enclosed_volume_mm3 : array, shape (n_pressures,)
+        Of the whole actuator; NaN where not reached.
+    centre_line_mm : array, shape (n_pressures, n_points, 2)
+        Material mid-line in the x-y plane; NaN where not reached.
+    steps : tuple of StepRecord
+    stopped_at_kPa : float or None
+        Last pressure reached, if the ramp had to stop.
+    stop_reason : str
+        Why; empty if it did not stop.
+    solver_name : str
+        Linear solver used.
+    """
+
+    geometry: ActuatorGeometry
+    crimp_ratio: float
+    settings: SimulationSettings
+    mesh: HexMesh
+    tip_path: TipPath
+    displacement_mm: FloatArray
+    enclosed_volume_mm3: FloatArray
+    centre_line_mm: FloatArray
+    steps: tuple[StepRecord, ...]
+    stopped_at_kPa: float | None
+    stop_reason: str
+    solver_name: str

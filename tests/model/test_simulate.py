@@ -1,0 +1,138 @@
+"""The ramp of a short actuator from end to end, its records, files and pictures."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+
+from spavision.errors import InputError
+from spavision.model.element_geometry import element_geometry
+from spavision.model.export import write_vtu_series
+from spavision.model.figures import deformed_shapes
+from spavision.model.geometry import ActuatorGeometry
+from spavision.model.linear_solver import SuperLUSolver, linear_solver
+from spavision.model.newton import NewtonSettings
+from spavision.model.simulate import Simulation, SimulationSettings, simulate
+
+SHORT = ActuatorGeometry(void_count=4)
+DRAFT = SimulationSettings(mesh_level="draft")
+PRESSURES_KPA = np.arange(0.0, 51.0, 10.0)
+
+
+@pytest.fixture(scope="module")
+def ramp() -> Simulation:
+    return simulate(SHORT, crimp_ratio=0.2, pressures_kPa=PRESSURES_KPA, settings=DRAFT)
+
+
+def test_first_mode_bends_towards_region_b(ramp: Simulation) -> None:
+    path = ramp.tip_path
+    np.testing.assert_array_equal(path.pressure_kPa, PRESSURES_KPA)
+    assert path.status == ("ok",) * len(PRESSURES_KPA)
+    assert path.ux_mm[0] == path.uy_mm[0] == 0.0
+    assert np.all(np.diff(path.ux_mm[:4]) > 0.0)
+    assert path.uy_mm[-1] > 0.0
+
+
+def test_paper_stops_the_first_mode(ramp: Simulation) -> None:
+    """A composite slack for longer (crimp ratio 0.4) bends further at the same pressure."""
+    slack = simulate(SHORT, crimp_ratio=0.4, pressures_kPa=PRESSURES_KPA, settings=DRAFT)
+    assert slack.tip_path.ux_mm[-1] > 1.2 * ramp.tip_path.ux_mm[-1]
+    np.testing.assert_allclose(slack.tip_path.ux_mm[:2], ramp.tip_path.ux_mm[:2], rtol=1e-6)
+
+
+def test_energy_balance(ramp: Simulation) -> None:
+    """Row 24: work of gas and weight is stored, but for the trapezoidal rule's error."""
+    last = ramp.steps[-1]
+    assert last.strain_energy_mJ > 10.0
+    assert abs(last.energy_imbalance_mJ) < 2e-3 * last.strain_energy_mJ
+
+
+def test_every_step_is_in_equilibrium(ramp: Simulation) -> None:
+    assert set(PRESSURES_KPA) <= {step.pressure_kPa for step in ramp.steps}
+    assert max(step.residual for step in ramp.steps) < DRAFT.newton.residual_tolerance
+    volumes = [step.enclosed_volume_mm3 for step in ramp.steps]
+    assert np.all(np.diff(volumes) > 0.0)
+    assert volumes[0] == pytest.approx(SHORT.gas_volume_mm3(), rel=0.01)
+
+
+def test_hanging_weight_stretches_as_a_bar() -> None:
+    """Small strain of a hanging bar: tip displacement w L²/(2 E A), with w the weight per length.
+
+    All of it Ecoflex 00-30 without paper, the voids filled but for a slit, E = 3 G.
+    """
+    bar = ActuatorGeometry(
+        void_count=15, side_wall_mm=7.0, roof_mm=16.5, channel_height_mm=0.5, channel_width_mm=0.5
+    )
+    names = dict.fromkeys(("body_material", "strip_a_material", "strip_b_material"), "Ecoflex 00-30")
+    settings = replace(
+        DRAFT, paper=replace(DRAFT.paper, width_modulus_MPa=0.0, length_modulus_MPa=0.0), **names
+    )
+    hanging = simulate(bar, crimp_ratio=0.2, pressures_kPa=np.array([0.0]), settings=settings)
+    tip = np.isclose(hanging.mesh.nodes_mm[:, 1], bar.length_mm)
+    stretch_mm = hanging.displacement_mm[0, tip, 1].mean()
+    expected_mm = 1.07e-9 * 9810.0 * bar.length_mm**2 / (2.0 * 3.0 * 0.0373319)
+    # The clamp, which holds the base's width over a length of its order, takes some 2 % of it.
+    assert stretch_mm == pytest.approx(expected_mm, rel=0.03)
+
+
+def test_stopped_ramp_keeps_what_it_reached() -> None:
+    settings = replace(DRAFT, newton=NewtonSettings(max_iterations=2), gravity=False)
+    seen: list[float] = []
+    stopped = simulate(
+        SHORT, crimp_ratio=0.3, pressures_kPa=np.array([0.0, 60.0]), settings=settings, progress=seen.append
+    )
+    assert stopped.stopped_at_kPa == seen[-1] < 60.0
+    assert stopped.tip_path.status == ("ok", "missing")
+    assert "no convergence in 2 iterations" in stopped.tip_path.reason[1]
+    assert np.isnan(stopped.tip_path.ux_mm[1])
+
+
+@pytest.mark.parametrize(
+    ("pressures", "message"),
+    [
+        ([], "at least one"),
+        ([0.0, 10.0, 10.0], "increasing"),
+        ([10.0, 5.0], "10 kPa is followed by 5 kPa"),
+        ([-5.0, 0.0], "expected 0 to 500 kPa"),
+        ([0.0, 65000.0], "expected 0 to 500 kPa"),
+        ([0.0, float("nan")], "expected 0 to 500 kPa"),
+    ],
+)
+def test_bad_pressures(pressures: list[float], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        simulate(SHORT, crimp_ratio=0.2, pressures_kPa=np.array(pressures), settings=DRAFT)
+
+
+def test_portable_solver_agrees(ramp: Simulation, monkeypatch: pytest.MonkeyPatch) -> None:
+    if linear_solver().name == SuperLUSolver.name:
+        pytest.skip("the fast solver is not installed, so there is nothing to compare")
+    monkeypatch.setattr("spavision.model.simulate.linear_solver", SuperLUSolver)
+    portable = simulate(SHORT, crimp_ratio=0.2, pressures_kPa=PRESSURES_KPA[:3], settings=DRAFT)
+    assert portable.solver_name == "superlu"
+    np.testing.assert_allclose(portable.tip_path.ux_mm, ramp.tip_path.ux_mm[:3], atol=1e-3)
+
+
+def test_vtu_series(ramp: Simulation, tmp_path: Path) -> None:
+    *files, index = write_vtu_series(ramp, tmp_path / "fields")
+    assert [path.name for path in files] == [f"ramp_{row:03d}.vtu" for row in range(len(PRESSURES_KPA))]
+    assert index.read_text().count("<DataSet") == len(PRESSURES_KPA)
+    last = meshio.read(files[-1])
+    np.testing.assert_allclose(last.point_data["displacement_mm"], ramp.displacement_mm[-1])
+    assert {"region", "largest_stretch", "pressure_MPa", "von_mises_MPa"} <= set(last.cell_data)
+    # VTK's corners 0, 1, 3, 4 span each box, whose volume must come out positive and right.
+    corners = last.points[last.cells_dict["hexahedron27"]]
+    volume = np.linalg.det(corners[:, [1, 3, 4]] - corners[:, :1])
+    np.testing.assert_allclose(volume, element_geometry(ramp.mesh).volumes.sum(axis=1), rtol=1e-9)
+    # and its last node is the centre
+    np.testing.assert_allclose(corners[:, 26], corners[:, :8].mean(axis=1), atol=1e-9)
+
+
+def test_deformed_shapes(ramp: Simulation) -> None:
+    figure = deformed_shapes(ramp, panels=3)
+    titles = [axis.get_title() for axis in figure.axes if axis.get_title()]
+    assert titles == ["0 kPa", "20 kPa", "50 kPa"]
+    figure.canvas.draw()

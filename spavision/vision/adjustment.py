@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import cv2
@@ -14,6 +15,7 @@ N_INTRINSIC = 8
 """log f, cx, cy, k1, k2, p1, p2, k3."""
 
 SMALLEST_SIGMA_PX = 0.01
+MOST_STEPS = 40
 
 
 @dataclass(frozen=True)
@@ -55,8 +57,7 @@ class Priors:
 
     def intrinsic_mean(self) -> FloatArray:
         """Return the expected log f, cx, cy, k1, k2, p1, p2, k3."""
-        camera = self.camera
-        return np.array([np.log(camera.fx), camera.cx, camera.cy, *camera.distortion])
+        return _values(self.camera, ())
 
     def intrinsic_weight(self) -> FloatArray:
         """Return the inverse variances of the same."""
@@ -81,7 +82,8 @@ class Adjustment:
     sigma_px : float
         Robust standard deviation of one corner coordinate.
     covariance : array, shape (8 + 6 views, 8 + 6 views)
-        Of log f, cx, cy, k1, k2, p1, p2, k3 and each pose's rotation vector and translation.
+        Of log f, cx, cy, k1, k2, p1, p2, k3 and, for each pose, its rotation vector and the translation's
+        x/z, y/z and log z.
     """
 
     camera: Camera
@@ -101,11 +103,13 @@ def first_pose(camera: Camera, view: View) -> Pose:
         np.array(camera.distortion),
         flags=cv2.SOLVEPNP_IPPE,
     )
-    return _pose(np.concatenate([rotation.ravel(), translation.ravel()]))
+    rx, ry, rz = rotation.ravel().tolist()
+    x, y, depth = translation.ravel().tolist()
+    return Pose(rotation=(rx, ry, rz), translation_mm=(x, y, depth))
 
 
 def adjust(
-    views: list[View], priors: Priors, poses: list[Pose] | None = None, *, iterations: int = 30
+    views: list[View], priors: Priors, *, start: Adjustment | None = None, least_gain: float = 0.01
 ) -> Adjustment:
     """Fit the shared camera and one pose a view by robust Levenberg-Marquardt.
 
@@ -118,21 +122,23 @@ def adjust(
         At least one; the measured distance of ``priors`` belongs to the first.
     priors : Priors
         Prior knowledge and start values.
-    poses : list of Pose, optional
-        Start values; found from the homographies when absent.
-    iterations : int
-        Largest number of steps.
+    start : Adjustment, optional
+        Start values; those of the priors and of the homographies when absent.
+    least_gain : float
+        Gain in chi-square at which to stop: 0.01 moves no parameter by more than a tenth of its standard
+        deviation, 1 is enough where only the lattice's pixels matter.
     """
     fixed = priors.sigma_log_focal == 0
-    start = poses if poses is not None else [first_pose(priors.camera, view) for view in views]
-    values = np.concatenate([priors.intrinsic_mean(), *[_pose_values(pose) for pose in start]])
+    camera = priors.camera if start is None or fixed else start.camera
+    poses = start.poses if start is not None else [first_pose(camera, view) for view in views]
+    values = _values(camera, poses)
     sigma = _sigma(_residuals(values, views, priors.camera))
-    damping, cost = 1e-4, _cost(values, views, priors, sigma)
+    damping, cost = 1e-7, _cost(values, views, priors, sigma)
     normal = np.eye(len(values))
-    for _ in range(iterations):
+    for _ in range(MOST_STEPS):
         normal, gradient = _normal_equations(values, views, priors, sigma)
         while damping < 1e10:
-            step = _solve(normal, gradient, damping, fixed=fixed)
+            step = _bounded(_solve(normal, gradient, damping, fixed=fixed))
             trial = values + step
             trial_cost = _cost(trial, views, priors, sigma)
             if trial_cost <= cost:
@@ -142,7 +148,7 @@ def adjust(
             break
         gained, values, damping = cost - trial_cost, trial, max(damping / 8.0, 1e-12)
         new_sigma = _sigma(_residuals(values, views, priors.camera))
-        settled = gained < 1e-7 * cost and abs(new_sigma / sigma - 1.0) < 1e-3
+        settled = gained < least_gain and abs(new_sigma / sigma - 1.0) < 0.01
         sigma = new_sigma
         cost = _cost(values, views, priors, sigma)
         if settled:
@@ -152,11 +158,10 @@ def adjust(
 
 
 def distance_gradient(pose: Pose) -> FloatArray:
-    """Return the derivative of the perpendicular distance by rotation vector and translation, shape (6,)."""
+    """Return the derivative of the perpendicular distance by the pose's six parameters."""
     base = _pose_values(pose)
-    steps = np.array([1e-6] * 3 + [1e-4] * 3)
-    gradient = np.empty(6)
-    for k, h in enumerate(steps):
+    gradient, h = np.empty(6), 1e-6
+    for k in range(6):
         shift = np.zeros(6)
         shift[k] = h
         gradient[k] = (_pose(base + shift).distance_mm - _pose(base - shift).distance_mm) / (2.0 * h)
@@ -165,26 +170,31 @@ def distance_gradient(pose: Pose) -> FloatArray:
 
 def perturbed(adjustment: Adjustment, parameter: int, step: float) -> tuple[Camera, tuple[Pose, ...]]:
     """Return camera and poses with one parameter (a row of the covariance) moved by ``step``."""
-    camera = adjustment.camera
-    values = np.concatenate(
-        [
-            [np.log(camera.fx), camera.cx, camera.cy, *camera.distortion],
-            *[_pose_values(pose) for pose in adjustment.poses],
-        ]
-    )
+    values = _values(adjustment.camera, adjustment.poses)
     values[parameter] += step
-    return _camera(values, camera), tuple(
+    return _camera(values, adjustment.camera), tuple(
         _view_pose(values, number) for number in range(len(adjustment.poses))
     )
 
 
 def _pose(values: FloatArray) -> Pose:
-    rotation, translation = values[:3].tolist(), values[3:6].tolist()
-    return Pose(rotation=tuple(rotation), translation_mm=tuple(translation))
+    rx, ry, rz, a, b, log_depth = values.tolist()
+    depth = float(np.exp(log_depth))
+    return Pose(rotation=(rx, ry, rz), translation_mm=(a * depth, b * depth, depth))
 
 
 def _pose_values(pose: Pose) -> FloatArray:
-    return np.array([*pose.rotation, *pose.translation_mm])
+    """Rotation vector, direction and log depth of the translation.
+
+    Focal length and depth scale each other; in logarithms that valley is straight, and few steps cross it.
+    """
+    x, y, depth = pose.translation_mm
+    return np.array([*pose.rotation, x / depth, y / depth, np.log(depth)])
+
+
+def _values(camera: Camera, poses: Sequence[Pose]) -> FloatArray:
+    intrinsic = [np.log(camera.fx), camera.cx, camera.cy, *camera.distortion]
+    return np.concatenate([intrinsic, *[_pose_values(pose) for pose in poses]])
 
 
 def _camera(values: FloatArray, template: Camera) -> Camera:
@@ -282,9 +292,11 @@ def _jacobian(camera: Camera, pose: Pose, points_mm: FloatArray) -> FloatArray:
         camera.matrix,
         np.array(camera.distortion),
     )
-    # OpenCV's columns: rotation 0-2, translation 3-5, fx fy 6-7, cx cy 8-9, distortion 10-14.
+    # OpenCV's columns: rotation 0-2, translation 3-5, fx fy 6-7, cx cy 8-9, k1 k2 p1 p2 k3 10-14.
     log_focal = full[:, 6] * camera.fx + full[:, 7] * camera.fy
-    return np.column_stack([log_focal, full[:, 8:10], full[:, 10:15], full[:, 0:6]])
+    x, y, depth = pose.translation_mm
+    log_depth = full[:, 3] * x + full[:, 4] * y + full[:, 5] * depth
+    return np.column_stack([log_focal, full[:, 8:15], full[:, 0:3], full[:, 3:5] * depth, log_depth])
 
 
 def _solve(normal: FloatArray, gradient: FloatArray, damping: float, *, fixed: bool) -> FloatArray:
@@ -296,6 +308,12 @@ def _solve(normal: FloatArray, gradient: FloatArray, damping: float, *, fixed: b
     step = np.zeros(len(gradient))
     step[free] = scale * np.linalg.solve(scaled, scale * gradient[free])
     return step
+
+
+def _bounded(step: FloatArray) -> FloatArray:
+    """Shorten a step that would change focal length or a depth more than twofold."""
+    logarithms = np.concatenate([step[:1], step[N_INTRINSIC + 5 :: 6]])
+    return step * min(1.0, np.log(2.0) / max(float(np.abs(logarithms).max()), 1e-12))
 
 
 def _result(

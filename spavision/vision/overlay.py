@@ -9,6 +9,7 @@ import numpy as np
 
 from .arrays import FloatArray, IntArray, RgbImage
 from .camera import project
+from .grid import neighbour_rows
 from .result import Reading, Track
 
 RESIDUAL_ENLARGEMENT = 50.0
@@ -98,7 +99,7 @@ def _draw_lattice(picture: RgbImage, reading: Reading, line: int) -> None:
     if len(reading.corners_px) == 0:
         return
     for step in ((1, 0), (0, 1)):
-        starts, ends = _neighbours(reading.indices, step)
+        starts, ends = neighbour_rows(reading.indices, step)
         segments = np.stack([reading.corners_px[starts], reading.corners_px[ends]], axis=1)
         cv2.polylines(picture, list(_fixed(segments)), False, LATTICE_RGB, 1, cv2.LINE_AA, shift=SHIFT)
     tips = reading.corners_px + RESIDUAL_ENLARGEMENT * reading.residuals_px
@@ -132,18 +133,6 @@ def _headline(track: Track, row: int) -> str:
         text += f"  corners {len(reading.indices)}, rms {reading.rms_px:.3f} px"
         text += f" (vectors x{RESIDUAL_ENLARGEMENT:g})"
     return f"{text}  {reading.reason}".rstrip()
-
-
-def _neighbours(indices: IntArray, step: tuple[int, int]) -> tuple[IntArray, IntArray]:
-    """Rows of corners one lattice step apart."""
-    low = indices.min(axis=0)
-    size = indices.max(axis=0) - low + 2
-    table = np.full((size[0], size[1]), -1, dtype=np.intp)
-    column, row = (indices - low).T
-    table[column, row] = np.arange(len(indices))
-    ends = table[column + step[0], row + step[1]]
-    starts = np.flatnonzero(ends >= 0)
-    return starts, ends[starts]
 
 
 def _board_box(track: Track, shape: tuple[int, ...]) -> tuple[int, int, int, int]:

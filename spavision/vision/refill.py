@@ -10,6 +10,7 @@ import numpy as np
 from .adjustment import Adjustment, Priors, View, adjust
 from .arrays import BoolArray, FloatArray, FloatImage, IntArray, blur
 from .camera import Camera, Pose, project
+from .grid import median_pitch, spread_subset
 from .saddles import refine, ring_test
 
 FIT_CORNERS = 1500
@@ -39,29 +40,17 @@ class Corners:
         return replace(self, indices=self.indices[rows], pixels=self.pixels[rows])
 
     def pitch_px(self) -> float:
-        """Median distance between neighbouring corners."""
-        place = {(c, r): k for k, (c, r) in enumerate(self.indices.tolist())}
-        pairs = [(k, place[c + 1, r]) for (c, r), k in place.items() if (c + 1, r) in place]
-        pairs += [(k, place[c, r + 1]) for (c, r), k in place.items() if (c, r + 1) in place]
-        ends = np.array(pairs)
-        return float(np.median(np.linalg.norm(self.pixels[ends[:, 0]] - self.pixels[ends[:, 1]], axis=1)))
-
-
-def spread_subset(indices: IntArray | FloatArray, largest: int) -> IntArray:
-    """Return at most ``largest`` rows, spread evenly over the board, the same ones each time."""
-    if len(indices) <= largest:
-        return np.arange(len(indices))
-    order = np.lexsort((indices[:, 0], indices[:, 1]))
-    return np.sort(order[np.linspace(0, len(indices) - 1, largest).astype(np.intp)])
+        """Return the median distance between neighbouring corners."""
+        return median_pitch(self.indices, self.pixels)
 
 
 def fit_corners(
-    corners: Corners, priors: Priors, *, largest: int, poses: list[Pose] | None = None
+    corners: Corners, priors: Priors, *, largest: int, start: Adjustment | None = None
 ) -> Adjustment:
     """Fit camera and pose to corners on a lattice of unit squares."""
     rows = spread_subset(corners.indices, largest)
     view = View(corners.indices[rows].astype(float), corners.pixels[rows])
-    return adjust([view], priors, poses)
+    return adjust([view], priors, start=start, least_gain=1.0)
 
 
 def guided_refill(gray: FloatImage, corners: Corners, priors: Priors) -> Corners:
@@ -80,7 +69,8 @@ def guided_refill(gray: FloatImage, corners: Corners, priors: Priors) -> Corners
         Weak knowledge of the camera, for squares of unit length.
     """
     cautious = replace(priors, sigma_radial=0.15, sigma_tangential=0.003)
-    tested = blur(gray, max(0.1 * corners.pitch_px(), 0.5))
+    pitch = corners.pitch_px()
+    tested = blur(gray, max(0.1 * pitch, 0.5))
     corners, fit = drop_outliers(corners, cautious)
     tried: set[tuple[int, int]] = set()
     for _ in range(12):
@@ -90,7 +80,7 @@ def guided_refill(gray: FloatImage, corners: Corners, priors: Priors) -> Corners
         if len(nodes) == 0:
             break
         tried.update(map(tuple, nodes.tolist()))
-        found = _measure(gray, tested, nodes, fit, corners)
+        found = _measure(gray, tested, nodes, fit, corners, pitch)
         if len(found.indices) == 0:
             break
         joined = replace(
@@ -99,17 +89,19 @@ def guided_refill(gray: FloatImage, corners: Corners, priors: Priors) -> Corners
             pixels=np.concatenate([corners.pixels, found.pixels]),
         )
         gained = len(found.indices) > 0.02 * len(corners.indices)
-        corners, fit = drop_outliers(joined, cautious if gained else priors)
+        corners, fit = drop_outliers(joined, cautious if gained else priors, start=fit)
     return corners
 
 
-def drop_outliers(corners: Corners, priors: Priors) -> tuple[Corners, Adjustment | None]:
+def drop_outliers(
+    corners: Corners, priors: Priors, *, start: Adjustment | None = None
+) -> tuple[Corners, Adjustment | None]:
     """Fit, drop what lies beyond 4 sigma or stands alone, and fit again; None when too little is left."""
-    fit: Adjustment | None = None
+    fit = start
     for largest in (FIT_CORNERS, FINAL_CORNERS):
         if len(corners.indices) < 12:
             return corners, None
-        fit = fit_corners(corners, priors, largest=largest)
+        fit = fit_corners(corners, priors, largest=largest, start=fit)
         expected = project(fit.camera, fit.poses[0], corners.indices.astype(float))
         error = np.linalg.norm(corners.pixels - expected, axis=1)
         corners = corners.take(error < max(4.0 * fit.sigma_px, 0.05))
@@ -132,7 +124,12 @@ def _frontier(indices: IntArray, tried: set[tuple[int, int]]) -> IntArray:
 
 
 def _measure(
-    gray: FloatImage, tested: FloatImage, nodes: IntArray, fit: Adjustment, corners: Corners
+    gray: FloatImage,
+    tested: FloatImage,
+    nodes: IntArray,
+    fit: Adjustment,
+    corners: Corners,
+    pitch: float,
 ) -> Corners:
     """Look for the given nodes' corners where the fit expects them."""
     expected, (across, down) = expected_corners(fit.camera, fit.poses[0], nodes)
@@ -142,12 +139,11 @@ def _measure(
         (expected > 0).all(axis=1)
         & (expected[:, 0] < width - 1)
         & (expected[:, 1] < height - 1)
-        & (local_pitch > 0.3 * corners.pitch_px())
+        & (local_pitch > 0.3 * pitch)
     )
     nodes, expected, across, down = nodes[visible], expected[visible], across[visible], down[visible]
     if len(nodes) == 0:
         return replace(corners, indices=nodes, pixels=expected)
-    pitch = corners.pitch_px()
     pixels = refine(gray, expected, pitch)
     pixels = np.where(np.isfinite(pixels), pixels, -1e6)
     near = np.linalg.norm(pixels - expected, axis=1) < LARGEST_STEP_SQUARES * pitch

@@ -9,6 +9,7 @@ import numpy as np
 from .arrays import FloatImage, IntArray
 from .board import BoardView
 from .camera import to_plane
+from .grid import common_rows
 from .observe import BoardMap, Observation
 
 WIDEST_SHIFT_SQUARES = 20
@@ -86,14 +87,6 @@ def same_position(first: BoardView, second: BoardView, shift: IntArray) -> bool:
     rest = motion[keep] - design[keep] @ coefficients
     error = 4.0 * float(rest.std()) / np.sqrt(keep.sum())
     return bool(np.abs(design @ coefficients).max() < STILL_PX + error)
-
-
-def common_rows(first: IntArray, second: IntArray) -> tuple[IntArray, IntArray]:
-    """Rows of two index tables that hold the same node."""
-    place = {node: row for row, node in enumerate(map(tuple, second.tolist()))}
-    pairs = [(row, place[node]) for row, node in enumerate(map(tuple, first.tolist())) if node in place]
-    table = np.array(pairs, dtype=np.intp).reshape(-1, 2)
-    return table[:, 0], table[:, 1]
 
 
 def _disagreements(reference: BoardMap, other: BoardMap) -> dict[tuple[int, int], float]:

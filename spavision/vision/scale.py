@@ -12,7 +12,8 @@ from .adjustment import N_INTRINSIC, Adjustment, Priors, View, adjust, distance_
 from .arrays import FloatArray
 from .board import provisional_priors
 from .camera import Camera
-from .refill import FINAL_CORNERS, FIT_CORNERS, spread_subset
+from .grid import spread_subset
+from .refill import FINAL_CORNERS, FIT_CORNERS
 from .settings import TrackSettings
 from .stations import Stations
 
@@ -108,13 +109,13 @@ def fit_camera(
 
 def _finish(stations: Stations, views: list[View], priors: Priors, square: float, source: str) -> CameraFit:
     """Adjust to the thinned views, then once more to all corners."""
-    rough = adjust(views, priors)
+    rough = adjust(views, priors, least_gain=1.0)
     largest = max(FIT_CORNERS, FINAL_CORNERS // max(1, len(views) // 4))
     full = [
         _thinned(indices.astype(float) * square, pixels, largest)
         for indices, pixels in zip(stations.indices, stations.pixels, strict=True)
     ]
-    adjustment = adjust(full, priors, list(rough.poses), iterations=20)
+    adjustment = adjust(full, priors, start=rough)
     slope = distance_gradient(adjustment.poses[0])
     place = slice(N_INTRINSIC, N_INTRINSIC + 6)
     variance = float(slope @ adjustment.covariance[place, place] @ slope)

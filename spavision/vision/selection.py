@@ -15,6 +15,9 @@ COST_OF_MISSING = 7.0
 USUAL_STEP_SQUARES = 6.0
 """Motion between neighbouring photographs that costs one unit: 15 mm on 2.5 mm squares."""
 
+LARGEST_MOTION_COST = 4.5
+"""A jump of any length costs no more than this: pressures may be far apart."""
+
 STATIC_SQUARES = 0.15
 """Motion within which a spot counts as fixed to the board."""
 
@@ -49,7 +52,11 @@ def select_markers(
                 for j in range(len(candidates[before])):
                     gap = now - before
                     motion = float(np.linalg.norm(places[now][k] - places[before][j])) / USUAL_STEP_SQUARES
-                    cost = best[before][j] + (gap - 1) * COST_OF_MISSING + min(motion**2 / gap, 30.0)
+                    cost = (
+                        best[before][j]
+                        + (gap - 1) * COST_OF_MISSING
+                        + min(motion**2 / gap, LARGEST_MOTION_COST)
+                    )
                     if cost < total:
                         total, origin = cost, (before, j)
             best[now].append(total + own)

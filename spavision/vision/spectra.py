@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.fft import fft2, fftshift
 
 from .arrays import BoolArray, FloatArray, FloatImage, IntArray
 
@@ -61,7 +62,7 @@ class TileSpectra:
         return np.sqrt(np.abs(v[:, 0] * v[:, 3] - v[:, 1] * v[:, 2]))
 
 
-def tile_spectra(gray: FloatImage, *, largest_number: int = 900) -> TileSpectra:
+def tile_spectra(gray: FloatImage, *, largest_number: int = 400) -> TileSpectra:
     """Find the two strongest crossing gratings in each tile and turn them into lattice vectors.
 
     A checkerboard of pitch p is, to first order, two gratings along its diagonals with
@@ -81,8 +82,8 @@ def tile_spectra(gray: FloatImage, *, largest_number: int = 900) -> TileSpectra:
     tiles = windows[corners[:, 1], corners[:, 0]]
     hann = np.hanning(TILE_PX + 2)[1:-1].astype(np.float32)
     tiles = (tiles - tiles.mean(axis=(1, 2), keepdims=True)) * np.outer(hann, hann)
-    power = np.abs(np.fft.fft2(tiles).astype(np.complex64)) ** 2
-    first, second, share = _two_gratings(np.fft.fftshift(power, axes=(1, 2)))
+    power = np.abs(fft2(tiles)) ** 2
+    first, second, share = _two_gratings(fftshift(power, axes=(1, 2)))
     vectors, sane = _lattice_vectors(first / TILE_PX, second / TILE_PX)
     trust = np.where(sane, share, 0.0)
     return TileSpectra(corners.astype(float) + (TILE_PX - 1) / 2.0, vectors, trust)

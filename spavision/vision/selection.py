@@ -15,7 +15,7 @@ COST_OF_MISSING = 7.0
 USUAL_STEP_SQUARES = 6.0
 """Motion between neighbouring photographs that costs one unit: 15 mm on 2.5 mm squares."""
 
-LARGEST_MOTION_COST = 4.5
+LARGEST_MOTION_COST = 2.0
 """A jump of any length costs no more than this: pressures may be far apart."""
 
 STATIC_SQUARES = 0.15

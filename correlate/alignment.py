@@ -88,7 +88,8 @@ def _best(
     if not np.any(np.isfinite(scores)):
         return None
     best = int(np.argmin(scores))
-    bracket = candidates[max(best - 1, 0)], candidates[min(best + 1, len(candidates) - 1)]
+    usable = np.flatnonzero(np.isfinite(scores))
+    bracket = candidates[max(best - 1, usable[0])], candidates[min(best + 1, usable[-1])]
     refined = minimize_scalar(mean_square, bounds=bracket, method="bounded")
     value = float(refined.x if refined.fun < scores[best] else candidates[best])
     neutral = 0.0 if kind == "shift" else 1.0

@@ -63,6 +63,30 @@ def deformed_shapes(simulation: Simulation, *, panels: int = 6) -> Figure:
     return figure
 
 
+def deformed_state(simulation: Simulation, row: int) -> Figure:
+    """Draw the deformed side face at one pressure, in the frame and colours that all pressures share.
+
+    Parameters
+    ----------
+    simulation : Simulation
+    row : int
+        Which of the asked pressures; it must have been reached.
+    """
+    reached = np.flatnonzero(simulation.tip_path.has_reading)
+    elements, faces = _side_faces(simulation)
+    last = element_fields(simulation, int(reached[-1])).largest_stretch[elements]
+    norm = Normalize(1.0, float(last.max()))
+    x_range, y_range = _frame(simulation, reached)
+    figure = Figure(figsize=(5.0, 5.0), layout="constrained")
+    axis = figure.add_subplot()
+    _draw_side(
+        axis, simulation, row, faces, element_fields(simulation, row).largest_stretch[elements], norm
+    )
+    axis.set(xlim=x_range, ylim=y_range[::-1], xlabel="x in mm", ylabel="y in mm (down)")
+    figure.colorbar(ScalarMappable(norm, _COLOURS), ax=axis, label="largest principal stretch", shrink=0.8)
+    return figure
+
+
 def _draw_side(
     axis: Axes, simulation: Simulation, row: int, faces: IntArray, values: FloatArray, norm: Normalize
 ) -> None:

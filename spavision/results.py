@@ -90,9 +90,13 @@ class ResultsFolder:
         self._written.append(name)
         return target
 
+    def write_bytes(self, name: str, content: bytes) -> Path:
+        """Write one file with the given content."""
+        return self.write(name, lambda path: path.write_bytes(content))
+
     def write_text(self, name: str, text: str) -> Path:
         """Write one text file in UTF-8."""
-        return self.write(name, lambda path: path.write_text(text, encoding="utf-8"))
+        return self.write_bytes(name, text.encode("utf-8"))
 
     def adopt(self, folder: Path) -> None:
         """Take into the record the files that a series writer has finished below ``folder``."""

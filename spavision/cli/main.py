@@ -5,12 +5,13 @@ from __future__ import annotations
 import importlib
 import sys
 import traceback
+import warnings
 from typing import NoReturn
 
 import click
 
 from spavision import __version__
-from spavision.errors import InputError
+from spavision.errors import InputError, InputWarning
 
 COMMANDS = {
     "track": "Measure the tip in photographs: photos -> tip path with uncertainty.",
@@ -54,6 +55,7 @@ def run() -> NoReturn:
     """Run the command line; exit 2 on bad input, 1 on an internal error, 130 when interrupted."""
     debug = "--debug" in sys.argv
     arguments = [argument for argument in sys.argv[1:] if argument != "--debug"]
+    warnings.showwarning = _show_warning
     try:
         main.main(args=arguments, prog_name="spavision", standalone_mode=False)
     except InputError as error:
@@ -70,6 +72,14 @@ def run() -> NoReturn:
             traceback.print_exc()
         _stop(f"spavision: internal error: {type(error).__name__}: {error} (--debug shows where)", 1)
     sys.exit(0)
+
+
+def _show_warning(message: Warning | str, category: type[Warning], *place: object) -> None:
+    """Show what the user should know in one sentence, and other warnings not at all unless debugging."""
+    if issubclass(category, InputWarning):
+        click.echo(f"spavision: note: {message}", err=True)
+    elif "--debug" in sys.argv:
+        click.echo(f"{category.__name__}: {message} {place}", err=True)
 
 
 def _stop(sentence: str, code: int) -> NoReturn:

@@ -1,0 +1,83 @@
+"""``spavision correlate``: measured against modelled tip path at the same pressures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .options import model_options, photo_options, run_options
+
+if TYPE_CHECKING:
+    from .comparison import Comparison
+
+
+@click.command()
+@click.option("--photos", type=click.Path(path_type=Path), help="Folder of photographs to track.")
+@click.option("--measured", type=click.Path(path_type=Path), help="CSV with pressure_kPa, ux_mm, uy_mm.")
+@click.option(
+    "--pressure-unit", default="kPa", show_default=True, help="Unit of the pressures in --measured."
+)
+@photo_options
+@model_options
+@run_options
+def correlate(photos: Path | None, measured: Path | None, pressure_unit: str, **given: Any) -> None:
+    """Compare the measured with the modelled tip path.
+
+    With --crimp alone the sample photos of that crimp ratio are used. Writes track.csv, simulation.csv,
+    discrepancy.csv, figures, report.html and run.json.
+    """
+    from spavision.results import ResultsFolder
+
+    from . import output
+    from .comparison import compare_with_model, write_comparison
+    from .measured_side import choose_source, take_measurement
+
+    source = choose_source(photos, measured, given, pressure_unit=pressure_unit)
+    folder = given["output"] or output.default_output("correlate", source.name)
+    results = ResultsFolder(folder, force=given["force"])
+    side = take_measurement(source, quiet=given["quiet"])
+    comparison = compare_with_model(side, quiet=given["quiet"])
+    write_comparison(results, comparison)
+    _report(comparison, results.path, as_json=given["as_json"], quiet=given["quiet"])
+
+
+def _report(comparison: Comparison, folder: Path, *, as_json: bool, quiet: bool) -> None:
+    from . import output
+
+    frame = comparison.summary.discrepancy.table()
+    if as_json:
+        output.print_json(
+            {
+                "discrepancy": output.records(frame),
+                "summary": comparison.summary.sentences(),
+                "output": str(folder),
+            }
+        )
+        return
+    for note in comparison.notes:
+        output.warn(note)
+    if not quiet:
+        header = {
+            "pressure_kPa": "kPa",
+            "measured_ux_mm": "x meas.",
+            "modelled_ux_mm": "x model",
+            "error_ux_mm": "Δx",
+            "measured_uy_mm": "y meas.",
+            "modelled_uy_mm": "y model",
+            "error_uy_mm": "Δy",
+            "distance_mm": "|Δ|",
+        }
+        rows = [
+            [
+                f"{row['pressure_kPa']:g}",
+                *(output.number(row[name]) for name in list(header)[1:]),
+                row["remark"],
+            ]
+            for _, row in frame.iterrows()
+        ]
+        title = f"{comparison.title}: displacement of the tip, mm (Δ = modelled − measured)"
+        output.print_table(title, [*header.values(), "remark"], rows)
+        output.print_lines(comparison.summary.sentences())
+    output.print_lines([f"Report: {folder / 'report.html'}"])

@@ -1,0 +1,143 @@
+"""The measured side of a comparison: the user's photos, the user's table, or the sample photos."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from spavision.errors import InputError
+from spavision.experiment import Experiment
+from spavision.tip_path import FloatArray, TipPath
+
+from .options import MODEL_OPTIONS, PHOTO_OPTIONS, experiment_for
+from .samples import nearest_sample_set
+
+if TYPE_CHECKING:
+    from .measure import Measurement
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where the measured path comes from: one of ``photos`` and ``table`` is given."""
+
+    name: str
+    experiment: Experiment
+    photos: Path | None = None
+    table: Path | None = None
+    pressure_unit: str = "kPa"
+    notes: tuple[str, ...] = ()
+
+    @property
+    def place(self) -> str:
+        """The folder or file, for messages."""
+        return str(self.table if self.photos is None else self.photos)
+
+
+@dataclass(frozen=True)
+class MeasuredSide:
+    """The measured path in the photos' axes, with how it was come by."""
+
+    path: TipPath
+    source: Source
+    measurement: Measurement | None
+    record: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What the reader must know about the measurement."""
+        tracked = tuple(self.measurement.track.notes) if self.measurement is not None else ()
+        return self.source.notes + tracked
+
+    @property
+    def reference_kPa(self) -> float:
+        """Pressure that the displacements are relative to.
+
+        The lowest reading's, where it holds no displacement; else the displacements began at rest, at 0 kPa.
+        """
+        first = self.path.readings().take(np.array([0]))
+        at_rest = first.ux_mm[0] == 0.0 and first.uy_mm[0] == 0.0
+        return float(first.pressure_kPa[0]) if at_rest else 0.0
+
+    @property
+    def model_pressure_kPa(self) -> FloatArray:
+        """Pressures at which the model must run to meet every measured row, the reference first."""
+        above = self.path.pressure_kPa[self.path.pressure_kPa >= self.reference_kPa]
+        return np.unique(np.append(above, self.reference_kPa))
+
+
+def choose_source(
+    photos: Path | None, table: Path | None, given: dict[str, Any], *, pressure_unit: str
+) -> Source:
+    """Decide from the options what is measured, and read the experiment that goes with it.
+
+    Raises
+    ------
+    InputError
+        If the options contradict each other or name nothing to measure.
+    """
+    options = PHOTO_OPTIONS | MODEL_OPTIONS
+    if photos is not None and table is not None:
+        raise InputError("--photos and --measured name two measured sides; give one of them")
+    if table is not None:
+        experiment = experiment_for(None, given["experiment"], given, options)
+        return Source(table.stem, experiment, table=table, pressure_unit=pressure_unit)
+    if photos is not None:
+        return Source(
+            photos.resolve().name,
+            experiment_for(photos, given["experiment"], given, options),
+            photos=photos,
+        )
+    if given["crimp"] is None:
+        raise InputError(
+            "nothing to compare: give --crimp 0.2 for the sample photos, --photos DIR or --measured CSV"
+        )
+    return _sample_source(given, options)
+
+
+def _sample_source(given: dict[str, Any], options: dict[str, tuple[str, str]]) -> Source:
+    crimp_ratio = given["crimp"]
+    Experiment().with_options({"actuator": {"crimp_ratio": crimp_ratio}})
+    folder, own_ratio = nearest_sample_set(crimp_ratio)
+    notes: tuple[str, ...] = ("The photos are the sample set: renders by spavision, not a laboratory's.",)
+    if abs(own_ratio - crimp_ratio) > 1e-9:
+        notes += (
+            f"There are no sample photos of crimp ratio {crimp_ratio:g}: the model of {crimp_ratio:g} is "
+            f"compared with the photos of {own_ratio:g}, the nearest; "
+            "name your own with --photos or --measured.",
+        )
+    return Source(
+        f"crimp-{crimp_ratio:.2f}",
+        experiment_for(folder, given["experiment"], given, options),
+        photos=folder,
+        notes=notes,
+    )
+
+
+def take_measurement(source: Source, *, quiet: bool) -> MeasuredSide:
+    """Track the photos, or read the table.
+
+    Raises
+    ------
+    InputError
+        If that fails, or if no reading is left to compare.
+    """
+    from spavision.results import sha256
+    from spavision.tables import PRESSURE_UNITS_kPa, read_tip_path
+
+    from .measure import measure
+
+    if source.photos is not None:
+        measurement = measure(source.photos, source.experiment, quiet=quiet)
+        return MeasuredSide(measurement.track.tip_path, source, measurement, {"track": measurement.record()})
+    assert source.table is not None
+    if source.pressure_unit not in PRESSURE_UNITS_kPa:
+        raise InputError(
+            f"--pressure-unit {source.pressure_unit!r}: expected one of {', '.join(PRESSURE_UNITS_kPa)}"
+        )
+    path = read_tip_path(source.table, pressure_unit=source.pressure_unit)
+    if not np.any(path.has_reading):
+        raise InputError(f"{source.table}: no row holds a displacement; fill ux_mm and uy_mm")
+    return MeasuredSide(path, source, None, {"inputs": sha256([source.table])})

@@ -1,0 +1,149 @@
+"""Options that several commands share, and how they lie over the experiment file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+import numpy as np
+
+from spavision.errors import InputError
+from spavision.experiment import FILE_NAME, Experiment, read_experiment
+from spavision.tip_path import FloatArray
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+PHOTO_OPTIONS = {
+    "square_mm": ("board", "square_mm"),
+    "board_scale": ("board", "scale"),
+    "standoff_mm": ("camera", "standoff_mm"),
+    "distance_mm": ("camera", "distance_mm"),
+    "marker_colour": ("marker", "colour"),
+    "marker_diameter_mm": ("marker", "diameter_mm"),
+    "pressures": ("photos", "table"),
+    "pressure_step_kpa": ("photos", "step_kPa"),
+}
+"""Option name to section and key of the experiment file."""
+
+MODEL_OPTIONS = {"crimp": ("actuator", "crimp_ratio"), "mesh": ("model", "mesh")}
+
+
+def run_options(command: Command) -> Command:
+    """Add the options of every command that writes a results folder."""
+    for option in (
+        click.option("--json", "as_json", is_flag=True, help="Print the result as JSON on standard output."),
+        click.option(
+            "--quiet", "-q", is_flag=True, help="Show no progress and print only the result's place."
+        ),
+        click.option("--force", is_flag=True, help="Replace the files of an earlier run."),
+        click.option(
+            "--output",
+            "-o",
+            type=click.Path(path_type=Path),
+            help="Results folder [default: results/<command>-<input>].",
+        ),
+        click.option(
+            "--experiment",
+            type=click.Path(path_type=Path),
+            help=f"Experiment file [default: {FILE_NAME} beside the photos].",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+def photo_options(command: Command) -> Command:
+    """Add the options that describe the photographs and the set-up."""
+    for option in (
+        click.option(
+            "--pressure-step-kpa", type=float, help="Photos in natural order, one every so many kPa from 0."
+        ),
+        click.option("--pressures", type=str, help="CSV with the columns photo, pressure_kPa."),
+        click.option("--marker-diameter-mm", type=float, help="Diameter of the marker."),
+        click.option("--marker-colour", type=str, help="Named colour, or #rrggbb sampled from a photo."),
+        click.option("--distance-mm", type=float, help="Camera to board along the board's normal."),
+        click.option("--standoff-mm", type=float, help="Marker plane in front of the board."),
+        click.option("--board-scale", type=float, help="True over nominal length of 100 squares, by ruler."),
+        click.option("--square-mm", type=float, help="Side of one board square."),
+    ):
+        command = option(command)
+    return command
+
+
+def model_options(command: Command) -> Command:
+    """Add the options of the finite-element model."""
+    for option in (
+        click.option("--mesh", type=str, help="Mesh level: draft, default or fine."),
+        click.option(
+            "--crimp", type=float, help="Crimp ratio of the paper (amplitude over wavelength), 0.1 to 0.4."
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+def experiment_for(
+    photos: Path | None, named: Path | None, given: dict[str, Any], names: dict[str, tuple[str, str]]
+) -> Experiment:
+    """Read the experiment file where there is one and lay the options that were given over it.
+
+    Parameters
+    ----------
+    photos : Path or None
+        Folder beside whose photos the file is looked for.
+    named : Path or None
+        File asked for by ``--experiment``.
+    given : dict
+        Option values, None where not given.
+    names : dict
+        Option name to section and key, such as `PHOTO_OPTIONS`.
+
+    Raises
+    ------
+    InputError
+        If the file or an option is not valid.
+    """
+    experiment = Experiment()
+    if named is not None:
+        experiment = read_experiment(named)
+    elif photos is not None and (photos / FILE_NAME).is_file():
+        experiment = read_experiment(photos / FILE_NAME)
+    overlay: dict[str, dict[str, Any]] = {}
+    for option, (section, key) in names.items():
+        if given.get(option) is not None:
+            overlay.setdefault(section, {})[key] = given[option]
+    if given.get("pressures") is not None:
+        overlay["photos"]["pressures"] = "table"
+    elif given.get("pressure_step_kpa") is not None:
+        overlay["photos"]["pressures"] = "step"
+    return experiment.with_options(overlay)
+
+
+def parse_pressures(text: str) -> FloatArray:
+    """Read pressures given as ``from:to:step`` or as a list separated by commas, in kPa.
+
+    Raises
+    ------
+    InputError
+        If the text is neither, or the pressures do not increase.
+    """
+    try:
+        if ":" in text:
+            start, stop, step = (float(part) for part in text.split(":"))
+            if not (
+                step > 0 and stop >= start and math.isfinite(stop - start) and (stop - start) / step < 1e4
+            ):
+                raise ValueError(text)
+            values = start + step * np.arange(math.floor((stop - start) / step + 1e-9) + 1)
+        else:
+            values = np.array([float(part) for part in text.split(",")])
+    except ValueError as error:
+        raise InputError(
+            f"--pressures-kpa {text!r}: expected from:to:step such as 0:65:5, or a list such as 0,10,20"
+        ) from error
+    if not np.all(np.isfinite(values)) or np.any(np.diff(values) <= 0):
+        raise InputError(f"--pressures-kpa {text!r}: expected increasing pressures; put them in order")
+    return values

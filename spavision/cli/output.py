@@ -1,0 +1,75 @@
+"""What commands print and the text form of tables."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+PLAIN_WIDTH = 160
+"""Columns of a table that is not printed to a terminal."""
+
+
+def csv_text(frame: pd.DataFrame) -> str:
+    """Return a table as CSV text: seven significant digits, an empty cell for a gap."""
+    text: str = frame.to_csv(index=False, float_format="%.7g", lineterminator="\n")
+    return text
+
+
+def records(frame: pd.DataFrame) -> list[dict[str, Any]]:
+    """Return a table as a list of rows fit for JSON: None for a gap."""
+    rows = frame.to_dict(orient="records")
+    return [{key: _finite_or_none(value) for key, value in row.items()} for row in rows]
+
+
+def print_json(content: Mapping[str, Any]) -> None:
+    """Print a result on standard output as JSON."""
+    click.echo(json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def print_table(title: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    """Print a table on standard output; numbers right-aligned, the last column left-aligned."""
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(title=title, title_justify="left", title_style="bold")
+    for name in header:
+        table.add_column(name, justify="left" if name == "remark" else "right", no_wrap=name != "remark")
+    for row in rows:
+        table.add_row(*(Text(cell) for cell in row))
+    # A pipe or a log has no width of its own: the table must not be folded to 80 columns there.
+    Console(width=None if sys.stdout.isatty() else PLAIN_WIDTH).print(table)
+
+
+def print_lines(lines: Sequence[str]) -> None:
+    """Print sentences on standard output, one a line."""
+    for line in lines:
+        click.echo(line)
+
+
+def warn(sentence: str) -> None:
+    """Print one sentence of warning on standard error."""
+    click.echo(f"spavision: note: {sentence}", err=True)
+
+
+def number(value: float, decimals: int = 2) -> str:
+    """Format a number for a printed table; a gap is a dash."""
+    return f"{value:.{decimals}f}" if math.isfinite(value) else "–"
+
+
+def default_output(command: str, name: str) -> Path:
+    """Return the results folder that a command writes to unless told otherwise."""
+    return Path("results") / f"{command}-{name}"
+
+
+def _finite_or_none(value: Any) -> Any:
+    return None if isinstance(value, float) and not math.isfinite(value) else value

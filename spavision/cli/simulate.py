@@ -1,0 +1,76 @@
+"""``spavision simulate``: pressures -> tip path and fields of the 3D model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from .options import MODEL_OPTIONS, model_options, run_options
+
+DEFAULT_PRESSURES = "0:65:5"
+
+
+@click.command()
+@click.option(
+    "--pressures-kpa",
+    default=DEFAULT_PRESSURES,
+    show_default=True,
+    help="from:to:step, or a list separated by commas.",
+)
+@model_options
+@run_options
+def simulate(pressures_kpa: str, **given: Any) -> None:
+    """Run the 3D finite-element model of the actuator.
+
+    Writes simulation.csv, the fields as VTU files for ParaView and a picture of the deformed shapes.
+    """
+    from spavision.results import ResultsFolder
+
+    from . import output
+    from .model_run import run_model, simulation_record, write_simulation
+    from .options import experiment_for, parse_pressures
+
+    experiment = experiment_for(None, given["experiment"], given, MODEL_OPTIONS)
+    pressures = parse_pressures(pressures_kpa)
+    name = f"crimp-{experiment.actuator.crimp_ratio or 0:.2f}"
+    results = ResultsFolder(given["output"] or output.default_output("simulate", name), force=given["force"])
+    simulation = run_model(experiment, pressures, quiet=given["quiet"])
+    write_simulation(results, simulation)
+    results.write_record(
+        {
+            "command": "simulate",
+            "experiment": experiment.model_dump(),
+            "pressures_kPa": pressures.tolist(),
+            "simulation": simulation_record(simulation),
+        }
+    )
+    _report(simulation, results.path, as_json=given["as_json"], quiet=given["quiet"])
+
+
+def _report(simulation: Any, folder: Path, *, as_json: bool, quiet: bool) -> None:
+    from . import output
+    from .model_run import simulation_record
+
+    path = simulation.tip_path
+    if as_json:
+        output.print_json(
+            {
+                "tip_path": output.records(path.table()),
+                **simulation_record(simulation),
+                "output": str(folder),
+            }
+        )
+        return
+    if not quiet:
+        rows = [
+            [f"{p:g}", output.number(x), output.number(y), reason]
+            for p, x, y, reason in zip(
+                path.pressure_kPa, path.ux_mm, path.uy_mm, path.reason or ("",) * len(path), strict=True
+            )
+        ]
+        output.print_table("Modelled tip path", ["pressure kPa", "x mm", "y mm", "remark"], rows)
+    if simulation.stopped_at_kPa is not None:
+        output.warn(f"the model stopped at {simulation.stopped_at_kPa:g} kPa: {simulation.stop_reason}")
+    output.print_lines([f"Results: {folder}"])

@@ -1,0 +1,1 @@
+"""From test data to hyperelastic laws: reading, fitting, transition point, report."""

@@ -1,0 +1,204 @@
+"""Reading test data: files of machines, databases and papers as they are."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from spavision.errors import InputError
+from spavision.model.materials.curves import EQUIBIAXIAL, PLANAR, UNIAXIAL
+
+from .column_names import STRAIN_UNITS, Column, STRESS_UNITS_MPa, strain_columns, stress_columns
+from .first_loading import Points, first_loading, stretch_from, with_compression_negative
+from .measured_curve import FloatArray, MeasuredCurve
+from .text_table import TextTable, parse_table
+
+COMPRESSION = "compression"
+"""Mode name of a uniaxial test whose strains may be written with a positive sign."""
+
+MODE_NAMES = {
+    "uniaxial": UNIAXIAL,
+    "tension": UNIAXIAL,
+    COMPRESSION: UNIAXIAL,
+    "equibiaxial": EQUIBIAXIAL,
+    "planar": PLANAR,
+}
+
+_MODE_WORDS = (
+    ("equibiaxial", re.compile(r"(?<![a-z])(equi ?)?biax(ial)?(?![a-z])")),
+    ("planar", re.compile(r"(?<![a-z])(planar|pure shear)(?![a-z])")),
+    (COMPRESSION, re.compile(r"(?<![a-z])(compression|compressive|iso 7743)(?![a-z])")),
+    ("uniaxial", re.compile(r"(?<![a-z])(uniax(ial)?|tension|tensile|iso 37|astm d412)(?![a-z])")),
+)
+"""Words in a file's name, its folder's name or its preamble that tell the mode, the first match taken."""
+
+_MODE_CODES = {"ut": "uniaxial", "uc": COMPRESSION, "et": "equibiaxial", "bt": "equibiaxial", "ps": "planar"}
+"""Whole names of files or folders that do."""
+
+_PREAMBLE_LENGTH = 2000
+
+
+@dataclass(frozen=True)
+class CurveFormat:
+    """What the user says about a file; None where it shall be recognised.
+
+    Parameters
+    ----------
+    mode : str or None
+        A key of `MODE_NAMES`.
+    columns : tuple of str
+        Column names in place of those in the file, such as ``("stress_MPa", "stretch")``.
+    strain_measure : str or None
+        ``strain``, ``stretch`` or ``true strain``.
+    strain_unit : str or None
+        ``fraction`` or ``percent``.
+    stress_measure : str or None
+        ``nominal`` or ``true``.
+    stress_unit : str or None
+        A key of `STRESS_UNITS_MPa`.
+    """
+
+    mode: str | None = None
+    columns: tuple[str, ...] = ()
+    strain_measure: str | None = None
+    strain_unit: str | None = None
+    stress_measure: str | None = None
+    stress_unit: str | None = None
+
+
+def read_curve(path: Path, form: CurveFormat | None = None) -> MeasuredCurve:
+    """Read the first loading curve of a test.
+
+    Parameters
+    ----------
+    path : Path
+        Text file: semicolons, commas, tabs or blanks between the cells; preamble and header or neither.
+    form : CurveFormat, optional
+        What goes before that which the file tells of itself.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or it is not clear which columns hold strain and stress.
+    """
+    form = form or CurveFormat()
+    source = str(path)
+    text = _text_of(path)
+    table = parse_table(text, source=source)
+    names = _column_names(table, form, source)
+    mode_name, mode_notes = _mode(path, text, form)
+    stretch, strain_notes = _stretch(table, names, form, mode_name, source)
+    stress, is_true, stress_notes = _stress(table, names, form, source)
+    if is_true:
+        # an incompressible body's section shrinks by λ in the loaded direction, in each of the three tests
+        stress = stress / stretch
+    points = first_loading(
+        Points(stretch, stress, (*mode_notes, *strain_notes, *stress_notes)), source=source
+    )
+    return MeasuredCurve(
+        _short_name(path), MODE_NAMES[mode_name], points.stretch, points.stress_MPa, points.notes
+    )
+
+
+def _text_of(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror}); name an existing text file") from error
+    except UnicodeDecodeError:
+        return path.read_text(encoding="latin-1")
+
+
+def _short_name(path: Path) -> str:
+    """File name, with its folder's where the name alone says little."""
+    generic = {"stress_stretch", "data", "curve"}
+    return f"{path.parent.name}/{path.stem}" if path.stem in generic else path.stem
+
+
+def _column_names(table: TextTable, form: CurveFormat, source: str) -> tuple[str, ...]:
+    names = form.columns or table.header
+    if not names:
+        raise InputError(
+            f"{source}: has no header line to tell its {table.width} columns apart; name them, for example "
+            "--columns strain,stress_MPa"
+        )
+    if len(names) != table.width:
+        raise InputError(
+            f"{source}: --columns names {len(names)} columns, the file has {table.width}; name each of them, "
+            "'-' for one to leave out"
+        )
+    return names
+
+
+def _stretch(
+    table: TextTable, names: tuple[str, ...], form: CurveFormat, mode_name: str, source: str
+) -> tuple[FloatArray, tuple[str, ...]]:
+    column, notes = _choose(strain_columns(names), form.strain_measure, "strain", names, source)
+    measure = form.strain_measure or column.measure or "strain"
+    unit = form.strain_unit or column.unit or "fraction"
+    if column.measure is None and form.strain_measure is None:
+        notes = (*notes, "strain taken as engineering strain")
+    values = np.array(table.column(column.index, source=source)) * STRAIN_UNITS[unit]
+    _refuse_empty(values, names[column.index], source)
+    if mode_name == COMPRESSION:
+        values, sign_notes = with_compression_negative(values, measure)
+        notes = (*notes, *sign_notes)
+    return stretch_from(values, measure, source=source), notes
+
+
+def _stress(
+    table: TextTable, names: tuple[str, ...], form: CurveFormat, source: str
+) -> tuple[FloatArray, bool, tuple[str, ...]]:
+    """Stress in MPa, whether it is true stress, and notes."""
+    column, notes = _choose(stress_columns(names), form.stress_measure, "stress", names, source)
+    measure = form.stress_measure or column.measure
+    unit = form.stress_unit or column.unit
+    if measure is None:
+        notes = (*notes, "stress taken as nominal stress")
+    if unit is None:
+        notes = (*notes, "stress taken to be in MPa")
+    values = np.array(table.column(column.index, source=source)) * STRESS_UNITS_MPa[unit or "MPa"]
+    _refuse_empty(values, names[column.index], source)
+    return values, measure == "true", notes
+
+
+def _choose(
+    found: list[Column], wanted: str | None, quantity: str, names: tuple[str, ...], source: str
+) -> tuple[Column, tuple[str, ...]]:
+    """Take the column of the wanted measure, else the first that is not a true one."""
+    if not found:
+        raise InputError(
+            f"{source}: no column is named {quantity} (it has {', '.join(names)}); name the columns with "
+            "--columns, force and extension first divided by section and gauge length"
+        )
+    if wanted is not None:
+        exact = [column for column in found if column.measure == wanted]
+        return (exact or found)[0], ()
+    conventional = [column for column in found if not (column.measure or "").startswith("true")]
+    chosen = (conventional or found)[0]
+    if len(found) > 1:
+        return chosen, (f"column {names[chosen.index]!r} taken for {quantity}",)
+    return chosen, ()
+
+
+def _refuse_empty(values: FloatArray, name: str, source: str) -> None:
+    if not np.isfinite(values).any():
+        raise InputError(f"{source}: column {name!r} is empty; fill it or name another with --columns")
+
+
+def _mode(path: Path, text: str, form: CurveFormat) -> tuple[str, tuple[str, ...]]:
+    if form.mode is not None:
+        return form.mode, ()
+    for place, words in (("name", path.stem), ("folder", path.parent.name)):
+        if words.lower() in _MODE_CODES:
+            return _MODE_CODES[words.lower()], (f"{_MODE_CODES[words.lower()]} test, by the file's {place}",)
+    preamble = text[:_PREAMBLE_LENGTH]
+    for place, words in (("name", path.stem), ("folder", path.parent.name), ("preamble", preamble)):
+        plain = re.sub(r"[_\-\s]+", " ", words).lower()
+        for name, pattern in _MODE_WORDS:
+            if pattern.search(plain):
+                return name, (f"{name} test, by the file's {place}",)
+    return "uniaxial", ("uniaxial test assumed; --mode names another",)

@@ -1,0 +1,197 @@
+"""Fitting one law, or all of them, to the curves of a material."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from spavision.errors import InputError
+from spavision.model.materials.curves import nominal_stress
+from spavision.model.materials.solid import IsotropicLaw
+from spavision.model.materials.stability import StableRange, stable_ranges
+
+from .families import FAMILIES, Family, find_family
+from .fit_data import FitData, stack, stretch_reach
+from .measured_curve import FloatArray, MeasuredCurve
+from .solution import Solution
+from .statistics import Goodness, correlation, covariance, goodness
+
+PLAUSIBLE_SHEAR_MODULUS_MPa = (1e-3, 100.0)
+"""Outside of this the unit of stress is doubted: softer than any gel that stands, stiffer than any rubber."""
+
+
+@dataclass(frozen=True)
+class FitSettings:
+    """How to fit.
+
+    Parameters
+    ----------
+    weights : tuple of float
+        One for each curve, on its points' squared residuals; empty for equal weights.
+    allow_unstable : bool
+        Whether the law may lose stability within the range of the data.
+    any_modulus : bool
+        Accept an initial shear modulus outside `PLAUSIBLE_SHEAR_MODULUS_MPa`.
+    """
+
+    weights: tuple[float, ...] = ()
+    allow_unstable: bool = False
+    any_modulus: bool = False
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A fitted parameter.
+
+    Parameters
+    ----------
+    name, unit : str
+    value : float
+    standard_error : float
+        NaN where the parameter is held by a bound or not determined by the data.
+    """
+
+    name: str
+    unit: str
+    value: float
+    standard_error: float
+
+
+@dataclass(frozen=True)
+class LawFit:
+    """A law fitted to curves.
+
+    Parameters
+    ----------
+    key, label : str
+        Which law, as on the command line and as printed.
+    law : IsotropicLaw
+    curves : tuple of MeasuredCurve
+    parameters : tuple of Parameter
+    correlation : array, shape (k, k)
+    goodness : Goodness
+    stable : dict of str to StableRange
+        By mode.
+    reach : dict of str to tuple of float
+        By mode, the stretches that the data call for.
+    notes : tuple of str
+    """
+
+    key: str
+    label: str
+    law: IsotropicLaw
+    curves: tuple[MeasuredCurve, ...]
+    parameters: tuple[Parameter, ...]
+    correlation: FloatArray
+    goodness: Goodness
+    stable: dict[str, StableRange]
+    reach: dict[str, tuple[float, float]]
+    notes: tuple[str, ...]
+
+    @property
+    def is_stable(self) -> bool:
+        """Whether the law is stable in all three tests as far as the data call for."""
+        return all(self.stable[mode].covers(*ends) for mode, ends in self.reach.items())
+
+    def stress_of(self, curve: MeasuredCurve) -> FloatArray:
+        """Return the law's nominal stress at a curve's stretches, in MPa."""
+        return nominal_stress(self.law, curve.stretch, curve.mode)
+
+
+def fit_law(name: str, curves: Sequence[MeasuredCurve], settings: FitSettings | None = None) -> LawFit:
+    """Fit a law by least squares of nominal stress.
+
+    Parameters
+    ----------
+    name : str
+        A key of `FAMILIES`, or ``ogden`` for three terms.
+    curves : sequence of MeasuredCurve
+        Tests of one material: different modes, replicates.
+    settings : FitSettings, optional
+
+    Raises
+    ------
+    InputError
+        If there are fewer points than parameters, the stresses are all zero, no stable law fits, or the
+        shear modulus comes out absurd.
+    """
+    settings = settings or FitSettings()
+    family = find_family(name)
+    data = stack(curves, settings.weights or (1.0,) * len(curves))
+    _refuse_too_little(family, data)
+    reach = stretch_reach(curves)
+    solution = family.solve(data, reach, allow_unstable=settings.allow_unstable)
+    if not settings.any_modulus:
+        _refuse_absurd_modulus(solution.law.shear_modulus_MPa)
+    return _described(family, solution, data, tuple(curves), reach)
+
+
+def fit_all(curves: Sequence[MeasuredCurve], settings: FitSettings | None = None) -> list[LawFit]:
+    """Fit every law that has fewer parameters than there are points; the best R² comes first."""
+    points = sum(len(curve) for curve in curves)
+    names = [key for key, family in FAMILIES.items() if family.parameter_count < points]
+    if not names:
+        raise InputError(f"{points} points are too few to fit any law; measure more")
+    fits = [fit_law(name, curves, settings) for name in names]
+    return sorted(fits, key=lambda fit: -fit.goodness.r_squared)
+
+
+def _refuse_too_little(family: Family, data: FitData) -> None:
+    if len(data) <= family.parameter_count:
+        raise InputError(
+            f"{family.label}: {len(data)} points are too few for {family.parameter_count} parameters; "
+            "measure more, or fit a law with fewer parameters"
+        )
+    if not (np.ptp(data.stress_MPa) > 0.0 and np.ptp(data.log_stretch[:, 0]) > 0.0):
+        raise InputError("the stress or the strain does not vary in the data; check the columns")
+
+
+def _refuse_absurd_modulus(modulus_MPa: float) -> None:
+    low, high = PLAUSIBLE_SHEAR_MODULUS_MPa
+    if not low <= modulus_MPa <= high:
+        raise InputError(
+            f"the initial shear modulus comes out as {modulus_MPa:.3g} MPa, expected {low:g} to {high:g} for "
+            "a rubber; name the unit of stress with --stress-unit (MPa, kPa, Pa), to correct or to confirm it"
+        )
+
+
+def _described(
+    family: Family,
+    solution: Solution,
+    data: FitData,
+    curves: tuple[MeasuredCurve, ...],
+    reach: dict[str, tuple[float, float]],
+) -> LawFit:
+    residual = data.stress_from(solution.law.derivatives(data.log_stretch)[0]) - data.stress_MPa
+    matrix, apart = covariance(solution, data, residual)
+    error = np.sqrt(np.diag(matrix))
+    parameters = tuple(
+        Parameter(name, unit, float(value), float(sigma) if sigma > 0.0 else float("nan"))
+        for name, unit, value, sigma in zip(
+            solution.names, solution.units, solution.values, error, strict=True
+        )
+    )
+    stable = stable_ranges(solution.law)
+    notes = list(solution.notes)
+    lost = [each.name for each in parameters if each.standard_error > abs(each.value)]
+    if lost:
+        notes.append(f"{', '.join(lost)}: smaller than the standard error, a simpler law may do")
+    if not apart:
+        notes.append("the data do not tell the parameters apart: standard errors mean little")
+    beyond = [str(stable[mode]) for mode, ends in reach.items() if not stable[mode].covers(*ends)]
+    if beyond:
+        notes.append(f"unstable within the range of the data ({'; '.join(beyond)})")
+    return LawFit(
+        key=family.key,
+        label=family.label,
+        law=solution.law,
+        curves=curves,
+        parameters=parameters,
+        correlation=correlation(matrix),
+        goodness=goodness(data, residual, len(parameters)),
+        stable=stable,
+        reach=reach,
+        notes=tuple(notes),
+    )

@@ -31,14 +31,14 @@ class PaperLayer:
     length_modulus_MPa : float
         Stiffness along the actuator once taut.
     transition_half_width : float
-        Half the range of strain over which the paper becomes taut.
+        Half the range of strain over which the paper becomes taut: folds straighten one after another.
     width_modulus_MPa : float
         Stiffness in tension across the width, along the folds, from the start.
     """
 
     transition_factor: float = 0.690
     length_modulus_MPa: float = 10.0
-    transition_half_width: float = 0.04
+    transition_half_width: float = 0.1
     width_modulus_MPa: float = 10.0
 
     def slack_strain(self, crimp_ratio: float) -> float:

@@ -79,9 +79,7 @@ def deformed_state(simulation: Simulation, row: int) -> Figure:
     x_range, y_range = _frame(simulation, reached)
     figure = Figure(figsize=(5.0, 5.0), layout="constrained")
     axis = figure.add_subplot()
-    _draw_side(
-        axis, simulation, row, faces, element_fields(simulation, row).largest_stretch[elements], norm
-    )
+    _draw_side(axis, simulation, row, faces, element_fields(simulation, row).largest_stretch[elements], norm)
     axis.set(xlim=x_range, ylim=y_range[::-1], xlabel="x in mm", ylabel="y in mm (down)")
     figure.colorbar(ScalarMappable(norm, _COLOURS), ax=axis, label="largest principal stretch", shrink=0.8)
     return figure

@@ -39,7 +39,7 @@ class Material:
     strain_range : tuple of float or None
         Engineering strains between which they were fitted.
     alternative_to : str
-        Name of the material of which this is another set of parameters, which disagrees; empty for the default.
+        Name of the material of which this is another set of parameters; empty for the default set.
     """
 
     name: str

@@ -14,6 +14,9 @@ from .materials.solid import SolidMaterial
 CRIMP_RATIO_RANGE = (0.1, 0.4)
 """Crimp ratios for which the assumptions below are meant."""
 
+_STRAIGHT_PAPER_TRANSITION = 0.005
+"""Strain over which paper without crimp becomes taut: small, to keep the tension's slope continuous."""
+
 
 @dataclass(frozen=True)
 class PaperLayer:
@@ -32,6 +35,7 @@ class PaperLayer:
         Stiffness along the actuator once taut.
     transition_half_width : float
         Half the range of strain over which the paper becomes taut: folds straighten one after another.
+        Never more than the slack strain, so that the paper is slack at rest.
     width_modulus_MPa : float
         Stiffness in tension across the width, along the folds, from the start.
     """
@@ -66,16 +70,17 @@ def crimped_composite(matrix: SolidMaterial, *, crimp_ratio: float, paper: Paper
     InputError
         If the crimp ratio is out of range.
     """
+    slack_strain = paper.slack_strain(crimp_ratio)
     along = SlackFibre(
         direction=(0.0, 1.0, 0.0),
         modulus_MPa=paper.length_modulus_MPa,
-        slack_strain=paper.slack_strain(crimp_ratio),
-        transition_half_width=paper.transition_half_width,
+        slack_strain=slack_strain,
+        transition_half_width=min(paper.transition_half_width, slack_strain),
     )
     across = SlackFibre(
         direction=(0.0, 0.0, 1.0),
         modulus_MPa=paper.width_modulus_MPa,
-        slack_strain=0.0,
-        transition_half_width=0.005,
+        slack_strain=_STRAIGHT_PAPER_TRANSITION,
+        transition_half_width=_STRAIGHT_PAPER_TRANSITION,
     )
     return replace(matrix, fibres=(*matrix.fibres, along, across))

@@ -28,7 +28,7 @@ class SlackFibre:
     slack_strain : float
         Engineering strain at which the fibre becomes taut.
     transition_half_width : float
-        Half the range of strain over which it does so.
+        Half the range of strain over which it does so, at most the slack strain: no tension at rest.
 
     Raises
     ------
@@ -44,11 +44,11 @@ class SlackFibre:
     def __post_init__(self) -> None:
         if not np.isclose(np.linalg.norm(self.direction), 1.0):
             raise ValueError(f"fibre direction {self.direction} is not a unit vector")
-        if not (self.modulus_MPa >= 0.0 and self.slack_strain >= 0.0 and self.transition_half_width > 0.0):
+        if not (self.modulus_MPa >= 0.0 and 0.0 < self.transition_half_width <= self.slack_strain):
             raise ValueError(
-                f"fibre modulus {self.modulus_MPa:g} MPa, slack strain {self.slack_strain:g} and "
-                f"transition half-width {self.transition_half_width:g}: "
-                "expected the first two 0 or more, the last above 0"
+                f"fibre modulus {self.modulus_MPa:g} MPa, slack strain {self.slack_strain:g} and transition "
+                f"half-width {self.transition_half_width:g}: expected the modulus 0 or more, the half-width "
+                "above 0 and at most the slack strain"
             )
 
     def energy(self, stretch: FloatArray) -> FloatArray:

@@ -23,7 +23,7 @@ LOAD = Load(gas_pressure_MPa=0.02, gravity=1.0)
 
 
 def with_fibre(solid: SolidMaterial) -> SolidMaterial:
-    return replace(solid, fibres=(SlackFibre((0.0, 0.6, 0.8), 2.0, 0.02, 0.05),))
+    return replace(solid, fibres=(SlackFibre((0.0, 0.6, 0.8), 2.0, 0.05, 0.05),))
 
 
 def problem(solid: SolidMaterial, *, order: int) -> Equilibrium:

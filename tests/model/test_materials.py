@@ -92,6 +92,19 @@ def test_composite_carries_the_paper_and_keeps_the_matrix() -> None:
     assert [fibre.direction for fibre in composite.fibres] == [(0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
 
 
+@pytest.mark.parametrize("ratio", [0.1, 0.2, 0.4])
+def test_composite_is_free_of_stress_at_rest(ratio: float) -> None:
+    composite = crimped_composite(
+        find_material("Ecoflex 00-30").solid(), crimp_ratio=ratio, paper=PaperLayer()
+    )
+    assert [float(fibre.tension(np.array(1.0))) for fibre in composite.fibres] == [0.0, 0.0]
+
+
+def test_fibre_taut_at_rest_is_refused() -> None:
+    with pytest.raises(ValueError, match="at most the slack strain"):
+        SlackFibre((0.0, 1.0, 0.0), modulus_MPa=8.0, slack_strain=0.02, transition_half_width=0.05)
+
+
 @pytest.mark.parametrize("ratio", [0.05, 0.5, float("nan")])
 def test_crimp_ratio_out_of_range(ratio: float) -> None:
     with pytest.raises(InputError, match="crimp ratio"):

@@ -14,7 +14,7 @@ from .materials.solid import SolidMaterial
 CRIMP_RATIO_RANGE = (0.1, 0.4)
 """Crimp ratios for which the assumptions below are meant."""
 
-_STRAIGHT_PAPER_TRANSITION = 0.005
+_STRAIGHT_PAPER_TRANSITION = 0.02
 """Strain over which paper without crimp becomes taut: small, to keep the tension's slope continuous."""
 
 

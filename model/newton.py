@@ -81,7 +81,7 @@ def find_equilibrium(
         state, correction_mm = _iterate(problem, state, load, balance, solver)
         if not correction_mm < settings.largest_correction_mm:
             raise NotConvergedError(f"a correction of {correction_mm:.3g} mm")
-    raise NotConvergedError(f"no convergence in {settings.max_iterations} iterations")
+    raise NotConvergedError(f"no convergence in {settings.max_iterations} iteration(s)")
 
 
 def _iterate(

@@ -225,14 +225,10 @@ def add_fibre(
     moduli : array, shape (n, 6, 6), or (0, 6, 6) where they are not wanted
     """
     for n in prange(len(stress_factor)):
-        dyad = np.empty(6)
         a = spatial_direction[n]
-        for i in range(3):
-            dyad[i] = a[i] * a[i]
-            dyad[3 + i] = a[i] * a[(i + 1) % 3]
         for r in range(6):
-            stress[n, r] += stress_factor[n] * dyad[r]
-        if len(moduli) > 0:
-            for r in range(6):
+            first = a[r % 3] * a[(r + r // 3) % 3]
+            stress[n, r] += stress_factor[n] * first
+            if len(moduli) > 0:
                 for s in range(6):
-                    moduli[n, r, s] += moduli_factor[n] * dyad[r] * dyad[s]
+                    moduli[n, r, s] += moduli_factor[n] * first * a[s % 3] * a[(s + s // 3) % 3]

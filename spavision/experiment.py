@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import difflib
-import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from spavision.errors import InputError
+from spavision.tables import read_toml
 
 FILE_NAME = "experiment.toml"
 
@@ -97,7 +97,7 @@ class ActuatorSection(_Section):
         2.0, description="channel that connects the voids, mm (assumed)"
     )
 
-    def geometry(self) -> dict[str, float | int]:
+    def geometry(self) -> dict[str, Any]:
         """Return the lengths and counts that describe the shape, by key."""
         other = {"crimp_ratio", "first_bend", "body_material", "strip_b_material"}
         return self.model_dump(exclude=other)
@@ -146,17 +146,7 @@ def read_experiment(path: Path) -> Experiment:
     InputError
         If the file cannot be read, is not TOML, or holds an unknown key or a value out of range.
     """
-    try:
-        content = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise InputError(
-            f"{path}: cannot be read ({error.strerror}); name an existing experiment file"
-        ) from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: is not UTF-8 text; save the experiment file as UTF-8") from error
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{path}: is not valid TOML ({error}); correct that line") from error
-    return _validated(content, source=str(path))
+    return _validated(read_toml(path), source=str(path))
 
 
 def _validated(content: dict[str, Any], *, source: str) -> Experiment:

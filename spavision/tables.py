@@ -1,10 +1,12 @@
-"""Reading the tables that users write: comma-separated, one header line, units in the column names."""
+"""Reading the files that users write: comma-separated tables with a header line, and TOML."""
 
 from __future__ import annotations
 
 import csv
 import io
+import tomllib
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -99,6 +101,24 @@ def read_columns(path: Path) -> dict[str, list[str]]:
                 f"{path}: row {number} has {len(row)} cells, the header has {len(header)}; mend that row"
             )
     return {name: [row[index].strip() for row in rows[1:]] for index, name in enumerate(header)}
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Read a TOML file.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or is not TOML.
+    """
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror}); name an existing TOML file") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: is not UTF-8 text; save the file as UTF-8") from error
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{path}: is not valid TOML ({error}); correct that line") from error
 
 
 def numbers(columns: dict[str, list[str]], name: str, path: Path, *, allow_empty: bool = False) -> FloatArray:

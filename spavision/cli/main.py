@@ -6,7 +6,7 @@ import importlib
 import sys
 import traceback
 import warnings
-from typing import NoReturn
+from typing import NoReturn, TextIO
 
 import click
 
@@ -17,6 +17,8 @@ COMMANDS = {
     "track": "Measure the tip in photographs: photos -> tip path with uncertainty.",
     "simulate": "Run the 3D finite-element model: pressures -> tip path, fields.",
     "correlate": "Compare the measured with the modelled tip path at the same pressures.",
+    "fit": "Fit hyperelastic laws to test data, with uncertainty and stability.",
+    "materials": "List the materials of the library and of a folder of yours.",
     "render": "Render synthetic photographs with known truth.",
 }
 """Name and one line of help of each command; the module of the same name holds it."""
@@ -74,12 +76,19 @@ def run() -> NoReturn:
     sys.exit(0)
 
 
-def _show_warning(message: Warning | str, category: type[Warning], *place: object) -> None:
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,  # noqa: ARG001
+    line: str | None = None,  # noqa: ARG001
+) -> None:
     """Show what the user should know in one sentence, and other warnings not at all unless debugging."""
     if issubclass(category, InputWarning):
         click.echo(f"spavision: note: {message}", err=True)
     elif "--debug" in sys.argv:
-        click.echo(f"{category.__name__}: {message} {place}", err=True)
+        click.echo(f"{filename}:{lineno}: {category.__name__}: {message}", err=True)
 
 
 def _stop(sentence: str, code: int) -> NoReturn:

@@ -137,7 +137,7 @@ def parse_pressures(text: str) -> FloatArray:
                 step > 0 and stop >= start and math.isfinite(stop - start) and (stop - start) / step < 1e4
             ):
                 raise ValueError(text)
-            values = start + step * np.arange(math.floor((stop - start) / step + 1e-9) + 1)
+            values: FloatArray = start + step * np.arange(math.floor((stop - start) / step + 1e-9) + 1.0)
         else:
             values = np.array([float(part) for part in text.split(",")])
     except ValueError as error:

@@ -11,6 +11,14 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 ALLOWED_TOP_LEVEL = {"spavision"}
 
+USE = """
+import spavision.correlate.report, spavision.model.fitting, spavision.model.simulate, spavision.vision.track
+from spavision.cli.samples import nearest_sample_set
+from spavision.model.materials.library import find_material
+find_material("Mold Star 15")
+assert nearest_sample_set(0.2)[1] == 0.2
+"""
+
 
 def main() -> None:
     """Run the check; exit non-zero with a sentence when it fails."""
@@ -23,8 +31,7 @@ def main() -> None:
         python = folder / "venv" / "bin" / "python"
         run(python, "-m", "pip", "install", "--quiet", "--constraint", ROOT / "constraints.txt", wheel)
         run(folder / "venv" / "bin" / "spavision", "--version", cwd=folder)
-        imports = "import spavision.model.simulate, spavision.correlate.discrepancy, spavision.vision.track"
-        run(python, "-c", imports, cwd=folder)
+        run(python, "-c", USE, cwd=folder)
     print(f"wheel check passed: {wheel.name}")
 
 

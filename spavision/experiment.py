@@ -77,8 +77,10 @@ class ActuatorSection(_Section):
     first_bend: Literal["right", "left"] = Field(
         "right", description="side of the photo the tip moves to first"
     )
-    body_material: str = Field("Mold Star 15", description="silicone of the body and the 1 mm strip")
-    strip_b_material: str = Field("Mold Star 15", description="silicone of the strip on region B")
+    body_material: str = Field("Mold Star 15 two-term", description="silicone of the body and the 1 mm strip")
+    strip_b_material: str = Field(
+        "Mold Star 15 two-term", description="silicone of the strip on region B (assumed)"
+    )
     void_count: int = Field(15, ge=1, le=60, description="connected voids along the length")
     pitch_mm: PositiveLength = Field(10.5, description="distance from void to void, mm (assumed)")
     width_mm: PositiveLength = Field(15.0, description="width of the body, mm")

@@ -56,3 +56,14 @@ def test_a_bad_option_names_the_command_line():
 def test_a_missing_file_is_told(tmp_path):
     with pytest.raises(InputError, match="cannot be read"):
         read_experiment(tmp_path / "experiment.toml")
+
+
+def test_defaults_are_the_model_s():
+    from spavision.model.geometry import ActuatorGeometry
+    from spavision.model.simulate import SimulationSettings
+
+    actuator = Experiment().actuator
+    assert ActuatorGeometry(**actuator.geometry()) == ActuatorGeometry()
+    assert actuator.body_material == SimulationSettings().body_material
+    assert actuator.strip_b_material == SimulationSettings().strip_b_material
+    assert Experiment().model.mesh == SimulationSettings().mesh_level

@@ -37,6 +37,7 @@ def run_model(experiment: Experiment, pressure_kPa: FloatArray, *, quiet: bool) 
     settings = SimulationSettings(
         mesh_level=experiment.model.mesh,
         body_material=actuator.body_material,
+        strip_a_material=actuator.body_material,
         strip_b_material=actuator.strip_b_material,
     )
     with progress_bar("model", total=float(pressure_kPa.max()), quiet=quiet) as advance:

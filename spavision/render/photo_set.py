@@ -68,5 +68,4 @@ pressures = "names"
 crimp_ratio = {actuator.crimp_ratio}
 first_bend = "{actuator.first_bend}"
 strip_b_mm = {actuator.strip_mm}
-strip_b_material = "Mold Star 15"
 """

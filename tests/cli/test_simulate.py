@@ -1,0 +1,54 @@
+"""``spavision simulate`` from options to files, and each input it refuses."""
+
+import json
+
+import meshio
+import pandas as pd
+import pytest
+
+
+def test_a_short_ramp_writes_path_fields_and_picture(spavision, tmp_path):
+    outcome = spavision(
+        "simulate", "--crimp", "0.2", "--mesh", "draft", "--pressures-kpa", "0,5", "-o", "out"
+    )
+    assert outcome.code == 0, outcome.err
+    path = pd.read_csv(tmp_path / "out" / "simulation.csv")
+    assert path["pressure_kPa"].tolist() == [0, 5]
+    assert path["ux_mm"][0] == 0
+    assert path["ux_mm"][1] > 0.5  # the first mode bends towards region B, which is positive x
+    fields = sorted((tmp_path / "out" / "fields").glob("*.vtu"))
+    assert "displacement_mm" in meshio.read(fields[-1]).point_data
+    assert (tmp_path / "out" / "figures" / "deformed_shapes.png").stat().st_size > 10_000
+    record = json.loads((tmp_path / "out" / "run.json").read_text())
+    assert record["experiment"]["actuator"]["crimp_ratio"] == 0.2
+    assert "fields/ramp.pvd" in record["files"]
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ((), ("crimp ratio", "--crimp")),
+        (("--crimp", "0.9"), ("crimp_ratio", "0.9")),
+        (("--crimp", "0.2", "--mesh", "coarse"), ("mesh", "coarse", "draft")),
+        (("--crimp", "0.2", "--pressures-kpa", "0:65"), ("--pressures-kpa",)),
+        (("--crimp", "0.2", "--pressures-kpa", "10,5"), ("--pressures-kpa", "increasing")),
+        (("--crimp", "0.2", "--pressures-kpa", "0,9000"), ("9000",)),
+        (("--crimp", "0.2", "--pressures-kpa=-5,5"), ("-5",)),
+    ],
+)
+def test_bad_options_are_refused(spavision, tmp_path, options, words):
+    assert spavision("simulate", *options).is_one_sentence_about(*words)
+    assert not (tmp_path / "results").exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('body_material = "Gold"\n', ("Gold", "Mold Star 15")),
+        ("side_wall_mm = 8.0\n", ("side_wall_mm", "width_mm")),
+        ("void_count = 0\n", ("void_count",)),
+    ],
+)
+def test_a_bad_actuator_is_refused(spavision, tmp_path, text, words):
+    (tmp_path / "bad.toml").write_text("[actuator]\ncrimp_ratio = 0.2\n" + text)
+    assert spavision("simulate", "--experiment", "bad.toml").is_one_sentence_about(*words)

@@ -18,7 +18,8 @@ from .measured_curve import FloatArray
 from .separable_family import Reported, SeparableFamily
 
 LARGEST_EXPONENT = 30.0
-"""Exponents of Ogden's law are looked for up to this."""
+"""Exponents of Ogden's law are looked for up to this. Tension alone hardly tells α from −2α, and large
+negative exponents make the law lock in biaxial tension."""
 
 _SMALLEST_EXPONENT = 1e-4
 """An exponent nearer 0 is moved here; the stress changes by less than its share."""

@@ -15,11 +15,9 @@ from spavision.model.materials.stability import StableRange, stable_ranges
 from .families import FAMILIES, Family, find_family
 from .fit_data import FitData, stack, stretch_reach
 from .measured_curve import FloatArray, MeasuredCurve
-from .solution import Solution
+from .plausibility import biaxial_notes, refuse_absurd_modulus
+from .solution import NoSuchLawError, Solution
 from .statistics import Goodness, correlation, covariance, goodness
-
-PLAUSIBLE_SHEAR_MODULUS_MPa = (1e-3, 100.0)
-"""Outside of this the unit of stress is doubted: softer than any gel that stands, stiffer than any rubber."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +31,7 @@ class FitSettings:
     allow_unstable : bool
         Whether the law may lose stability within the range of the data.
     any_modulus : bool
-        Accept an initial shear modulus outside `PLAUSIBLE_SHEAR_MODULUS_MPa`.
+        Accept a shear modulus that is no rubber's.
     """
 
     weights: tuple[float, ...] = ()
@@ -114,28 +112,59 @@ def fit_law(name: str, curves: Sequence[MeasuredCurve], settings: FitSettings | 
     Raises
     ------
     InputError
-        If there are fewer points than parameters, the stresses are all zero, no stable law fits, or the
-        shear modulus comes out absurd.
+        If there are fewer points than parameters, the stresses are all alike, no stable law fits
+        (`NoSuchLawError`), or the data are absurdly soft or stiff.
     """
     settings = settings or FitSettings()
     family = find_family(name)
     data = stack(curves, settings.weights or (1.0,) * len(curves))
     _refuse_too_little(family, data)
+    if not settings.any_modulus:
+        refuse_absurd_modulus(data)
     reach = stretch_reach(curves)
     solution = family.solve(data, reach, allow_unstable=settings.allow_unstable)
-    if not settings.any_modulus:
-        _refuse_absurd_modulus(solution.law.shear_modulus_MPa)
     return _described(family, solution, data, tuple(curves), reach)
 
 
-def fit_all(curves: Sequence[MeasuredCurve], settings: FitSettings | None = None) -> list[LawFit]:
-    """Fit every law that has fewer parameters than there are points; the best R² comes first."""
+@dataclass(frozen=True)
+class Comparison:
+    """Every law fitted to the same curves.
+
+    Parameters
+    ----------
+    fits : tuple of LawFit
+        The best R² first.
+    left_out : tuple of str
+        A sentence for each law that could not be fitted.
+    """
+
+    fits: tuple[LawFit, ...]
+    left_out: tuple[str, ...]
+
+
+def fit_all(curves: Sequence[MeasuredCurve], settings: FitSettings | None = None) -> Comparison:
+    """Fit every law that has fewer parameters than there are points.
+
+    Raises
+    ------
+    InputError
+        As `fit_law`, or if no law can be fitted at all.
+    """
     points = sum(len(curve) for curve in curves)
-    names = [key for key, family in FAMILIES.items() if family.parameter_count < points]
-    if not names:
-        raise InputError(f"{points} points are too few to fit any law; measure more")
-    fits = [fit_law(name, curves, settings) for name in names]
-    return sorted(fits, key=lambda fit: -fit.goodness.r_squared)
+    fits, left_out = [], []
+    for key, family in FAMILIES.items():
+        if family.parameter_count >= points:
+            left_out.append(
+                f"{family.label}: {points} points are too few for {family.parameter_count} parameters"
+            )
+            continue
+        try:
+            fits.append(fit_law(key, curves, settings))
+        except NoSuchLawError as error:
+            left_out.append(str(error))
+    if not fits:
+        raise InputError(f"no law can be fitted to these {points} points; {left_out[0]}")
+    return Comparison(tuple(sorted(fits, key=lambda fit: -fit.goodness.r_squared)), tuple(left_out))
 
 
 def _refuse_too_little(family: Family, data: FitData) -> None:
@@ -146,15 +175,6 @@ def _refuse_too_little(family: Family, data: FitData) -> None:
         )
     if not (np.ptp(data.stress_MPa) > 0.0 and np.ptp(data.log_stretch[:, 0]) > 0.0):
         raise InputError("the stress or the strain does not vary in the data; check the columns")
-
-
-def _refuse_absurd_modulus(modulus_MPa: float) -> None:
-    low, high = PLAUSIBLE_SHEAR_MODULUS_MPa
-    if not low <= modulus_MPa <= high:
-        raise InputError(
-            f"the initial shear modulus comes out as {modulus_MPa:.3g} MPa, expected {low:g} to {high:g} for "
-            "a rubber; name the unit of stress with --stress-unit (MPa, kPa, Pa), to correct or to confirm it"
-        )
 
 
 def _described(
@@ -182,7 +202,8 @@ def _described(
         notes.append("the data do not tell the parameters apart: standard errors mean little")
     beyond = [str(stable[mode]) for mode, ends in reach.items() if not stable[mode].covers(*ends)]
     if beyond:
-        notes.append(f"unstable within the range of the data ({'; '.join(beyond)})")
+        notes.append(f"unstable or locked within the range of the data ({'; '.join(beyond)})")
+    notes += biaxial_notes(solution.law, curves)
     return LawFit(
         key=family.key,
         label=family.label,

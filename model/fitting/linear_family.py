@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import null_space
 
-from spavision.errors import InputError
 from spavision.model.materials.curves import MODES
 from spavision.model.materials.solid import IsotropicLaw
 from spavision.model.materials.stability import incremental_moduli
@@ -16,7 +15,7 @@ from spavision.model.materials.stability import incremental_moduli
 from .constrained import constrained_least_squares
 from .fit_data import FitData
 from .measured_curve import FloatArray
-from .solution import Solution
+from .solution import NoSuchLawError, Solution
 
 _STRETCHES_CHECKED = 60
 """On the way through each test."""
@@ -72,7 +71,7 @@ class LinearFamily:
 
         Raises
         ------
-        InputError
+        NoSuchLawError
             If no parameters make a stable law.
         """
         columns = data.stress_from(self._basis(data.log_stretch)[0])
@@ -81,7 +80,7 @@ class LinearFamily:
             values, active = _solve_stably(columns, data, moduli)
             law = self.make(*values.tolist())
         except ValueError as error:
-            raise InputError(
+            raise NoSuchLawError(
                 f"{self.label}: no stable law of this kind fits the data; check the sign of the stresses, "
                 "fit a smaller --window, or add --allow-unstable"
             ) from error
@@ -123,7 +122,10 @@ def _solve_stably(columns: FloatArray, data: FitData, moduli: FloatArray) -> tup
     """
     root = data.root_weight
     matrix, target = columns * root[:, None], data.stress_MPa * root
-    margin = STABILITY_MARGIN * abs(float(matrix[:, 0] @ target)) / float(matrix[:, 0] @ matrix[:, 0])
+    modulus = float(matrix[:, 0] @ target) / float(matrix[:, 0] @ matrix[:, 0])
+    if not modulus > 0.0:
+        raise ValueError("the stresses oppose the strains")
+    margin = STABILITY_MARGIN * modulus
     rows = _rows(moduli, np.broadcast_to(_FIRST_INCREMENTS, (len(moduli), 2, 4)))
     for _ in range(_ROUNDS):
         values, active = constrained_least_squares(matrix, target, rows, np.full(len(rows), margin))

@@ -14,6 +14,10 @@ from spavision.model.materials.curves import Mode
 FloatArray = NDArray[np.float64]
 
 
+_ROUNDING = 1e-9
+"""A strain written as 0.3 shall lie in a window that ends there."""
+
+
 @dataclass(frozen=True)
 class MeasuredCurve:
     """One specimen's first loading.
@@ -52,7 +56,7 @@ class MeasuredCurve:
 
     def within(self, lowest_strain: float, highest_strain: float) -> MeasuredCurve:
         """Return the points inside a window of engineering strain."""
-        inside = (self.strain >= lowest_strain) & (self.strain <= highest_strain)
+        inside = (self.strain >= lowest_strain - _ROUNDING) & (self.strain <= highest_strain + _ROUNDING)
         if inside.all():
             return self
         note = (

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from spavision.errors import InputError
 from spavision.model.materials.solid import IsotropicLaw
 
 from .fit_data import FitData
 from .measured_curve import FloatArray
-from .solution import Solution
+from .solution import NoSuchLawError, Solution
 from .variable_projection import Minimum, best_of_many_starts
 
 STARTS_PER_TERM = 8
@@ -101,7 +100,7 @@ class SeparableFamily:
 
         Raises
         ------
-        InputError
+        NoSuchLawError
             If no start leads to a law with a positive shear modulus.
         """
         bounds = self.shape_bounds(data)
@@ -111,7 +110,7 @@ class SeparableFamily:
         for minimum in minima:
             if (minimum.moduli.sum() > 0.0) and np.isfinite(minimum.cost):
                 return self._solution(minimum, data, bounds)
-        raise InputError(
+        raise NoSuchLawError(
             f"{self.label}: no law of this kind fits the data with a positive shear modulus; check the sign "
             "of the stresses and the strain window"
         )
@@ -142,5 +141,5 @@ class SeparableFamily:
         if used < self.terms:
             notes.append(f"{used} of {self.terms} terms are enough: the others vanish in the best stable fit")
         if at_bound:
-            notes.append("a parameter is at the end of its range: the data do not determine it")
+            notes.append("a parameter is at the end of the range in which it is looked for")
         return tuple(notes)

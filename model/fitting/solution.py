@@ -7,9 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from spavision.errors import InputError
 from spavision.model.materials.solid import IsotropicLaw
 
 FloatArray = NDArray[np.float64]
+
+
+class NoSuchLawError(InputError):
+    """No law of the kind asked for fits the data; another kind may."""
 
 
 @dataclass(frozen=True)

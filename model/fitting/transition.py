@@ -107,6 +107,14 @@ def strain_transition(strain: FloatArray, stress_MPa: FloatArray, *, name: str) 
     return StrainTransition(float(crossing), primary, secondary)
 
 
+def transition_or_none(strain: FloatArray, stress_MPa: FloatArray) -> StrainTransition | None:
+    """Return the transition point of a fitted law's curve, or None where it has none."""
+    try:
+        return strain_transition(strain, stress_MPa, name="fitted law")
+    except InputError:
+        return None
+
+
 def _regression(strain: FloatArray, stress: FloatArray) -> Line:
     slope, intercept = np.polynomial.Polynomial.fit(strain, stress, 1).convert().coef[::-1]
     return Line(float(slope), float(intercept))

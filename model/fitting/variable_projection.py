@@ -98,6 +98,8 @@ def best_of_many_starts(
 ) -> list[Minimum]:
     """Follow every start on thinned data, finish the best on all; return these, the best first.
 
+    Left out are those whose moduli do not add up to a positive one; there may be none left.
+
     Parameters
     ----------
     shape : callable
@@ -115,9 +117,8 @@ def best_of_many_starts(
     G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413-432. L. Kaufman, BIT 15 (1975) 49-57.
     """
     few = _Projected(shape, data.thinned(_SCREENING_POINTS), any_sign)
-    screened = sorted(
-        (_descend(few, start, bounds, _SCREENING_TOLERANCE) for start in starts), key=lambda each: each.cost
-    )
+    followed = (_descend(few, start, bounds, _SCREENING_TOLERANCE) for start in starts)
+    screened = sorted((each for each in followed if each.moduli.sum() > 0.0), key=lambda each: each.cost)
     whole = _Projected(shape, data, any_sign)
     finished = [_descend(whole, each.shape_variables, bounds, _TOLERANCE) for each in screened[:_POLISHED]]
     return sorted(finished, key=lambda each: each.cost)

@@ -101,7 +101,7 @@ def parse_material(text: str, *, source: str) -> Material:
     return Material(
         name=content["name"],
         law=law_from_table(content["law"], source=source),
-        density_g_per_cm3=_density(content["density_g_per_cm3"], source),
+        density_g_per_cm3=checked_density(content["density_g_per_cm3"], source=source),
         source=content["source"],
         uncertain=content.get("uncertain", ""),
         strain_range=_strain_range(content.get("strain_range"), source),
@@ -129,11 +129,18 @@ def _line(key: str, value: Any) -> str:
     return f"{key} = {json.dumps(value, ensure_ascii=False)}"
 
 
-def _density(value: Any, source: str) -> float:
+def checked_density(value: Any, *, source: str) -> float:
+    """Return a density in g/cm³.
+
+    Raises
+    ------
+    InputError
+        If it is not a number, or that of no rubber.
+    """
     low, high = _DENSITY_RANGE
     if isinstance(value, bool) or not isinstance(value, int | float) or not low <= value <= high:
         raise InputError(
-            f"{source}: density_g_per_cm3 is {value!r}, expected {low:g} to {high:g}; correct the value"
+            f"{source}: density_g_per_cm3 is {value!r}, expected {low:g} to {high:g} g/cm³; correct the value"
         )
     return float(value)
 

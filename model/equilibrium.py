@@ -136,7 +136,7 @@ class Equilibrium:
         stress, _ = stress_and_moduli(self.groups, kinematics, with_moduli=False)
         forces, dilatation, operator = self._integrate(kinematics, stress)
         projected = self.bulk_modulus_MPa[:, None] * dilatation
-        external = load.gravity * self._weight + load.gas_pressure_MPa * self._unit_pressure_forces(state)
+        external = load.gravity * self._weight + load.gas_pressure_MPa * self.unit_pressure_forces(state)
         condensed = self._scatter(forces + np.einsum("em,emia->eia", projected, operator)) - external
         mixed = self._scatter(forces + np.einsum("em,emia->eia", state.pressure, operator)) - external
         return Balance(
@@ -184,6 +184,11 @@ class Equilibrium:
         """Return the cavity's volume (half of it in a half model)."""
         return self.cavity.volume(self.mesh.nodes_mm + state.displacement)
 
+    def unit_pressure_forces(self, state: State) -> FloatArray:
+        """Return the nodal forces of a gas pressure of 1 MPa, shape (n_nodes, 3), in N."""
+        forces = self.cavity.forces(self.mesh.nodes_mm + state.displacement)
+        return _sum_to_nodes(self.mesh.cavity_faces, forces, len(self.mesh.nodes_mm))
+
     def strain_energy(self, state: State) -> float:
         """Return the energy stored in the solid, in N mm."""
         kinematics = deform(state.displacement, self.mesh.elements, self.geometry)
@@ -220,10 +225,6 @@ class Equilibrium:
 
     def _scatter(self, element_forces: FloatArray) -> FloatArray:
         return _sum_to_nodes(self.mesh.elements, element_forces, len(self.mesh.nodes_mm))
-
-    def _unit_pressure_forces(self, state: State) -> FloatArray:
-        forces = self.cavity.forces(self.mesh.nodes_mm + state.displacement)
-        return _sum_to_nodes(self.mesh.cavity_faces, forces, len(self.mesh.nodes_mm))
 
     def _body_force(self, direction: FloatArray) -> FloatArray:
         """Nodal forces of the body's weight, shape (n_nodes, 3), in N."""

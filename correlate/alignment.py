@@ -75,32 +75,26 @@ def _best(
     )
     target = np.column_stack([data.ux_mm, data.uy_mm])
 
-    def squared_distances(value: float) -> FloatArray:
-        distances: FloatArray = np.sum((curve(correct(data.pressure_kPa, value)) - target) ** 2, axis=1)
-        return distances
+    before = np.sum((curve(data.pressure_kPa) - target) ** 2, axis=1)
 
-    def mean_square(value: float) -> float:
-        squared = squared_distances(value)
-        inside = np.isfinite(squared)
-        return float(np.mean(squared[inside])) if inside.mean() >= SMALLEST_SHARE else np.inf
+    def over_the_same_readings(value: float) -> tuple[float, float, int]:
+        after = np.sum((curve(correct(data.pressure_kPa, value)) - target) ** 2, axis=1)
+        both = np.isfinite(after) & np.isfinite(before)
+        if both.sum() < max(FEWEST_READINGS, SMALLEST_SHARE * len(data)):
+            return 0.0, 0.0, 0
+        return float(np.mean(before[both])), float(np.mean(after[both])), int(both.sum())
 
-    scores = np.array([mean_square(value) for value in candidates])
-    if not np.any(np.isfinite(scores)):
-        return None
+    def remaining_share(value: float) -> float:
+        # Not the error itself: that would reward a correction for moving the worst readings off the path.
+        mean_before, mean_after, readings = over_the_same_readings(value)
+        return mean_after / mean_before if readings and mean_before > 0 else 1.0
+
+    scores = np.array([remaining_share(value) for value in candidates])
     best = int(np.argmin(scores))
-    usable = np.flatnonzero(np.isfinite(scores))
-    bracket = candidates[max(best - 1, usable[0])], candidates[min(best + 1, usable[-1])]
-    refined = minimize_scalar(mean_square, bounds=bracket, method="bounded")
+    bracket = candidates[max(best - 1, 0)], candidates[min(best + 1, len(candidates) - 1)]
+    refined = minimize_scalar(remaining_share, bounds=bracket, method="bounded")
     value = float(refined.x if refined.fun < scores[best] else candidates[best])
-    neutral = 0.0 if kind == "shift" else 1.0
-    after = squared_distances(value)
-    same = np.isfinite(after) & np.isfinite(squared_distances(neutral))
-    if not np.any(same):
+    mean_before, mean_after, readings = over_the_same_readings(value)
+    if not readings:
         return None
-    return Alignment(
-        kind=kind,
-        value=value,
-        rmse_before_mm=float(np.sqrt(np.mean(squared_distances(neutral)[same]))),
-        rmse_after_mm=float(np.sqrt(np.mean(after[same]))),
-        readings=int(same.sum()),
-    )
+    return Alignment(kind, value, float(np.sqrt(mean_before)), float(np.sqrt(mean_after)), readings)

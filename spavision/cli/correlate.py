@@ -77,7 +77,7 @@ def _report(comparison: Comparison, folder: Path, *, as_json: bool, quiet: bool)
             ]
             for _, row in frame.iterrows()
         ]
-        title = f"{comparison.title}: displacement of the tip, mm (Δ = modelled − measured)"
+        title = f"{comparison.title}: tip in mm, Δ = modelled − measured"
         output.print_table(title, [*header.values(), "remark"], rows)
         output.print_lines(comparison.summary.sentences())
     output.print_lines([f"Report: {folder / 'report.html'}"])

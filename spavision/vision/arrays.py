@@ -41,8 +41,8 @@ def sample(image: FloatImage, points: FloatArray) -> FloatImage:
 
     Outside the image the nearest border pixel counts.
     """
-    x = np.ascontiguousarray(points[..., 0], dtype=np.float32)
-    y = np.ascontiguousarray(points[..., 1], dtype=np.float32)
+    places = np.clip(points, -1e6, 1e6).astype(np.float32)
+    x, y = np.ascontiguousarray(places[..., 0]), np.ascontiguousarray(places[..., 1])
     parts = [
         cv2.remap(
             image,

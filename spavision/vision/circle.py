@@ -27,6 +27,8 @@ class Circle:
         Of the centre.
     support : bool array, shape (n,)
         Points that lie on the circle within the noise.
+    radius_slope : array, shape (2,)
+        Derivative of the centre by the radius, where the radius was taken as known; zero otherwise.
     coverage : float
         Share of the full turn that the supporting points cover.
     """
@@ -35,6 +37,7 @@ class Circle:
     radius: float
     rms: float
     covariance: FloatArray
+    radius_slope: FloatArray
     support: BoolArray
     coverage: float
 
@@ -99,7 +102,8 @@ def _consensus(points: FloatArray, radius: float | None) -> tuple[FloatArray, fl
         centres = np.concatenate([middle + normal, middle - normal])
         good = np.tile((length > 0.05 * radius) & (length <= radius), 2)
         centres, radii = centres[good], np.full(int(good.sum()), radius)
-    sane = np.isfinite(radii) & (radii < 3.0 * np.ptp(points, axis=0).max())
+    # A straight edge is a circle too, of huge radius: the points' own extent bounds it.
+    sane = np.isfinite(radii) & (radii < 0.8 * np.ptp(points, axis=0).max())
     centres, radii = centres[sane], radii[sane]
     if len(radii) == 0:
         return None
@@ -135,7 +139,8 @@ def _judge(points: FloatArray, centre: FloatArray, radius: float, *, known: bool
     angle = np.arctan2(offset[support, 1], offset[support, 0])
     sectors = np.unique(np.floor((angle + np.pi) / (2 * np.pi) * 36).astype(int) % 36)
     design = offset[support] / length[support][:, None]
+    slope = -np.linalg.pinv(design).sum(axis=1) if known else np.zeros(2)
     if not known:
         design = np.column_stack([design, np.ones(len(design))])
     covariance = rms**2 * np.linalg.pinv(design.T @ design)[:2, :2]
-    return Circle(centre, float(radius), rms, covariance, support, len(sectors) / 36.0)
+    return Circle(centre, float(radius), rms, covariance, slope, support, len(sectors) / 36.0)

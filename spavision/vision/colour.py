@@ -45,12 +45,17 @@ def parse_colour(text: str) -> tuple[int, int, int]:
             f"--marker-colour is {text!r}; expected {', '.join(NAMED_COLOURS)} or a sampled colour as #rrggbb"
         )
     rgb = (int(name[1:3], 16), int(name[3:5], 16), int(name[5:7], 16))
-    _, a, b = _lab(np.array([[rgb]], np.float32) / 255.0)[0, 0]
-    if np.hypot(a, b) < 12.0:
+    if colour_chroma(rgb) < 12.0:
         raise InputError(
             f"--marker-colour {text} is nearly grey like the board; choose a marker with more colour"
         )
     return rgb
+
+
+def colour_chroma(rgb: tuple[int, int, int]) -> float:
+    """Return the chroma of a colour given in sRGB, 0 to 255, in units of Lab."""
+    _, a, b = _lab(np.array([[rgb]], np.float32) / 255.0)[0, 0]
+    return float(np.hypot(a, b))
 
 
 def white_balance(rgb: RgbImage, board: BoardView) -> tuple[FloatArray, FloatArray]:

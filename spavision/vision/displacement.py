@@ -17,6 +17,9 @@ LEAST_COVERAGE_OK = 0.8
 LEAST_COVERAGE = 0.3
 ROUND_ENOUGH = 0.12
 RADIUS_TOLERANCE = 0.06
+RADIUS_SIGMA = 0.015
+"""Relative uncertainty of the known radius that a partly hidden rim is fitted with."""
+
 RIM_FLOOR_PX = 0.02
 """Systematic part of a rim's centre: shading, pixel grid, compression."""
 
@@ -170,7 +173,8 @@ def _entries(
 def _marker_variance(place: Place, fit: CameraFit, standoff_mm: float) -> FloatArray:
     pose = fit.adjustment.poses[place.station]
     mm_per_px = (pose.distance_mm - standoff_mm) / fit.adjustment.camera.fx
-    return np.diag(place.circle.covariance) * 2.0 + (RIM_FLOOR_PX * mm_per_px) ** 2
+    by_radius = place.circle.radius_slope * (RADIUS_SIGMA * place.circle.radius)
+    return np.diag(place.circle.covariance) * 2.0 + by_radius**2 + (RIM_FLOOR_PX * mm_per_px) ** 2
 
 
 def _displacement(place: Place, reference: Place, fit: CameraFit, standoff_mm: float) -> FloatArray:

@@ -10,12 +10,12 @@ import numpy as np
 from .arrays import FloatArray, FloatImage, RgbImage, blur
 from .board import BoardView
 from .camera import project, to_plane
-from .circle import fit_circle
-from .colour import colour_strength, white_balance
+from .circle import Circle
+from .colour import colour_chroma, colour_strength, white_balance
 from .rim import find_rim
 
-FAINTEST_STRENGTH = 9.0
-"""Chroma along the marker's hue, in Lab units, below which nothing counts as coloured."""
+FAINTEST_SHARE = 0.22
+"""Chroma along the marker's hue, over the named colour's, below which nothing counts as coloured."""
 
 DIAMETER_RANGE_SQUARES = (0.7, 5.0)
 """Plausible marker diameters where none is given: 1.75 to 12.5 mm on 2.5 mm squares."""
@@ -45,6 +45,8 @@ class Candidate:
         Chroma along the marker's hue.
     contrast : float
         Step across the rim over its noise.
+    on_board : float
+        Share of the lattice's nodes close around that are seen: 0 on the actuator, 1 for a spot on the board.
     """
 
     centre_px: FloatArray
@@ -55,6 +57,7 @@ class Candidate:
     coverage: float
     strength: float
     contrast: float
+    on_board: float
 
 
 def find_candidates(
@@ -85,15 +88,14 @@ def find_candidates(
     strength = colour_strength(part, white_balance(rgb, board), colour)
     strength = blur(strength, max(0.12 * low * board.pitch_px, 0.7))
     smooth = blur(part.astype(np.float32), 0.6)
-    spots = _spots(strength, low * board.pitch_px, high * board.pitch_px)
-    candidates = []
-    for centre, radius_px, peak in spots[:MOST_CANDIDATES]:
-        candidate = _examine(
-            smooth, board, centre, radius_px, peak, offset=np.array([left, top], dtype=float)
-        )
-        if candidate is not None and low < 2.0 * candidate.radius_squares < high:
-            candidates.append(candidate)
-    return tuple(candidates)
+    spots = _spots(
+        part, strength, FAINTEST_SHARE * colour_chroma(colour), low * board.pitch_px, high * board.pitch_px
+    )
+    offset = np.array([left, top], dtype=float)
+    found = [_examine(smooth, board, spot, offset) for spot in spots[:MOST_CANDIDATES]]
+    return tuple(
+        c for c in found if c is not None and low < 2.0 * c.radius_squares < high and not _is_square(c)
+    )
 
 
 def _region(board: BoardView, shape: tuple[int, ...]) -> tuple[int, int, int, int]:
@@ -104,53 +106,54 @@ def _region(board: BoardView, shape: tuple[int, ...]) -> tuple[int, int, int, in
     return int(low[0]), int(low[1]), int(high[0]), int(high[1])
 
 
+@dataclass(frozen=True)
+class _Spot:
+    """A patch of the marker's colour: centre (2,) px, radius px, strength of its colour, and colour (3,)."""
+
+    centre_px: FloatArray
+    radius_px: float
+    strength: float
+    colour: FloatArray
+
+
 def _spots(
-    strength: FloatImage, smallest_px: float, largest_px: float
-) -> list[tuple[FloatArray, float, float]]:
-    """Centre, radius and peak strength of coloured spots of a plausible size, strongest first."""
-    seeds = strength > FAINTEST_STRENGTH
-    number, _, stats, _ = cv2.connectedComponentsWithStats(seeds.astype(np.uint8), connectivity=8)
+    part: RgbImage, strength: FloatImage, faintest: float, smallest_px: float, largest_px: float
+) -> list[_Spot]:
+    """Patches of the marker's colour and of a plausible size, strongest and largest first."""
+    number, _, stats, _ = cv2.connectedComponentsWithStats(
+        (strength > faintest).astype(np.uint8), connectivity=8
+    )
     spots = []
-    for label in range(1, number):
-        x, y, width, height, area = stats[label]
+    for x, y, width, height, area in stats[1:number].tolist():
         if area < 0.15 * smallest_px**2:
             continue
         box = strength[y : y + height, x : x + width]
-        peak = float(np.percentile(box[box > FAINTEST_STRENGTH], 90))
+        peak = float(np.percentile(box[box > faintest], 90))
         # Half of its own strength outlines a spot whatever the light.
-        inner, _, inner_stats, middles = cv2.connectedComponentsWithStats((box > 0.5 * peak).astype(np.uint8))
-        for part in range(1, inner):
-            size = inner_stats[part, cv2.CC_STAT_AREA]
-            extent = max(inner_stats[part, cv2.CC_STAT_WIDTH], inner_stats[part, cv2.CC_STAT_HEIGHT])
-            diameter = max(np.sqrt(4.0 * size / np.pi), 0.8 * extent)
-            if smallest_px * 0.8 < diameter < largest_px * 1.2:
-                spots.append((middles[part] + [x, y], diameter / 2.0, peak))
-    spots.sort(key=lambda spot: -spot[2] * spot[1])
+        inner, labels, inner_stats, middles = cv2.connectedComponentsWithStats(
+            (box > 0.5 * peak).astype(np.uint8)
+        )
+        for label in range(1, inner):
+            extent = max(inner_stats[label, cv2.CC_STAT_WIDTH], inner_stats[label, cv2.CC_STAT_HEIGHT])
+            if 0.8 * smallest_px < extent < 1.3 * largest_px:
+                core = (labels == label) & (box > 0.8 * peak)
+                colours = part[y : y + height, x : x + width][core]
+                colour = np.median(colours, axis=0) if len(colours) else np.zeros(3)
+                spots.append(_Spot(middles[label] + [x, y], extent / 2.0, peak, colour))
+    spots.sort(key=lambda spot: -spot.strength * spot.radius_px)
     return spots
 
 
-def _examine(
-    smooth: FloatImage,
-    board: BoardView,
-    centre: FloatArray,
-    radius_px: float,
-    peak: float,
-    *,
-    offset: FloatArray,
-) -> Candidate | None:
-    """Measure a spot's rim; None when it has none or is no disc."""
+def _examine(smooth: FloatImage, board: BoardView, spot: _Spot, offset: FloatArray) -> Candidate | None:
+    """Measure a spot's rim; None when it has none."""
     local = _shifted(board, offset)
-    across = project(
-        local.camera, local.pose, to_plane(local.camera, local.pose, centre[None]) + np.array([[1.0, 0.0]])
-    )
-    scale = float(np.linalg.norm(across[0] - centre))
-    found = find_rim(smooth, local, centre, radius_px / scale)
+    place = to_plane(local.camera, local.pose, spot.centre_px[None])
+    across = project(local.camera, local.pose, place + np.array([[1.0, 0.0]]))
+    scale = float(np.linalg.norm(across[0] - spot.centre_px))
+    found = find_rim(smooth, local, spot.centre_px, spot.radius_px / scale, spot.colour)
     if found is None:
         return None
-    rim, _, _ = found
-    circle = fit_circle(to_plane(local.camera, local.pose, rim.pixels))
-    if circle is None:
-        return None
+    rim, circle = found
     return Candidate(
         centre_px=project(local.camera, local.pose, circle.centre[None])[0] + offset,
         place_squares=circle.centre,
@@ -158,9 +161,30 @@ def _examine(
         rim_px=rim.pixels + offset,
         roundness=circle.rms / circle.radius,
         coverage=circle.coverage,
-        strength=peak,
+        strength=spot.strength,
         contrast=rim.contrast,
+        on_board=_board_around(board, circle),
     )
+
+
+def _is_square(candidate: Candidate) -> bool:
+    """Tell a square of the board, tinted by noise or fringes, from a dot."""
+    return candidate.on_board > 0.8 and candidate.radius_squares < 0.75
+
+
+def _board_around(board: BoardView, circle: Circle) -> float:
+    """Share of the lattice's nodes in a ring about a spot that are seen."""
+    low = board.indices.min(axis=0)
+    seen = np.zeros(np.ptp(board.indices, axis=0) + 1, dtype=bool)
+    seen[tuple((board.indices - low).T)] = True
+    reach = 1.15 * circle.radius + 1.3
+    first, last = np.ceil(circle.centre - reach), np.floor(circle.centre + reach)
+    columns, rows = np.meshgrid(np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1))
+    nodes = np.column_stack([columns.ravel(), rows.ravel()]).astype(np.intp)
+    distance = np.linalg.norm(nodes - circle.centre, axis=1)
+    nodes = nodes[(distance < reach) & (distance > reach - 1.0)] - low
+    within = ((nodes >= 0) & (nodes < seen.shape)).all(axis=1)
+    return float(seen[tuple(nodes[within].T)].sum() / max(len(nodes), 1))
 
 
 def _shifted(board: BoardView, offset: FloatArray) -> BoardView:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from .arrays import FloatArray, FloatImage, sample
 from .board import BoardView
 from .camera import project, to_plane
-from .circle import fit_circle
+from .circle import Circle, fit_circle
 
 N_RAYS = 96
 SAMPLES_PER_RADIUS = 24
@@ -34,9 +35,9 @@ class Rim:
 
 
 def find_rim(
-    image: FloatImage, board: BoardView, centre_px: FloatArray, radius_squares: float
-) -> tuple[Rim, FloatArray, float] | None:
-    """Find the rim about an approximate centre; return it with the refined centre (px) and radius (squares).
+    image: FloatImage, board: BoardView, centre_px: FloatArray, radius_squares: float, inside: FloatArray
+) -> tuple[Rim, Circle] | None:
+    """Find a spot's rim about an approximate centre, and the circle through it in squares of the board.
 
     Rays run in the plane of the board, so that a tilted camera's ellipse becomes a circle.
 
@@ -50,34 +51,51 @@ def find_rim(
         Approximate centre.
     radius_squares : float
         Approximate radius, in squares of the board.
+    inside : array, shape (3,)
+        Colour of the spot.
     """
+    looks = [_look(image, board, centre_px, radius_squares, inside, separation) for separation in SEPARATIONS]
+    found = [look for look in looks if look is not None]
+    return max(found, key=lambda look: (round(look[1].coverage, 1), -look[1].rms), default=None)
+
+
+def _look(
+    image: FloatImage,
+    board: BoardView,
+    centre_px: FloatArray,
+    radius_squares: float,
+    inside: FloatArray,
+    separation: Separation,
+) -> tuple[Rim, Circle] | None:
+    """Find the rim with one way of telling inside from outside, closing in on its centre."""
     centre, radius = centre_px, radius_squares
-    rim = None
+    found = None
     for _ in range(3):
-        rim = _edges(image, board, centre, radius)
-        if rim is None:
+        rim = _edges(image, board, centre, radius, inside, separation)
+        circle = None if rim is None else fit_circle(to_plane(board.camera, board.pose, rim.pixels))
+        if rim is None or circle is None:
             return None
-        points = to_plane(board.camera, board.pose, rim.pixels)
-        circle = fit_circle(points)
-        if circle is None:
-            return None
+        found = rim, circle
         # A wild radius means a shape that is no disc; the approximate one is kept for the next look.
-        radius = circle.radius if 0.6 < circle.radius / radius < 1.6 else radius
+        radius = circle.radius if 0.6 < circle.radius / radius_squares < 1.6 else radius
         centre = project(board.camera, board.pose, circle.centre[None])[0]
-    assert rim is not None
-    return rim, centre, radius
+    return found
 
 
-def _edges(image: FloatImage, board: BoardView, centre_px: FloatArray, radius: float) -> Rim | None:
+def _edges(
+    image: FloatImage,
+    board: BoardView,
+    centre_px: FloatArray,
+    radius: float,
+    inside: FloatArray,
+    separation: Separation,
+) -> Rim | None:
     """Half-contrast crossings along rays about a centre."""
     profiles, distances, angles = _profiles(image, board, centre_px, radius)
     inner = profiles[:, distances < 0.6].reshape(-1, 3)
     outer = profiles[:, (distances > 1.3) & (distances < 1.7)].reshape(-1, 3)
-    inside = np.median(inner, axis=0)
     step = inside - np.median(outer, axis=0)
-    # The direction in colour that separates inside from outside best against the scatter of both.
-    scatter = np.cov((inner - inside).T) + np.cov(outer.T) + np.eye(3) * 4.0
-    direction = np.linalg.solve(scatter, step)
+    direction = np.linalg.solve(separation(inner, outer, profiles), step)
     length = float(step @ direction)
     if length < 1e-6:
         return None
@@ -90,6 +108,22 @@ def _edges(image: FloatImage, board: BoardView, centre_px: FloatArray, radius: f
     found = np.isfinite(crossing)
     pixels[found] = project(board.camera, board.pose, points[found])
     return Rim(pixels, float(np.sqrt(length)))
+
+
+def _scatter(inner: FloatArray, outer: FloatArray, _profiles: FloatArray) -> FloatArray:
+    """Scatter of colours on either side (Fisher's discriminant): highlights and shading drop out."""
+    return np.asarray(np.cov(inner.T) + np.cov(outer.T) + 4.0 * np.eye(3))
+
+
+def _noise(_inner: FloatArray, _outer: FloatArray, profiles: FloatArray) -> FloatArray:
+    """Noise of the pixels alone: a cover, whose colour is part of either side's scatter, does no harm."""
+    jumps = np.diff(profiles[:, :: SAMPLES_PER_RADIUS // 6], axis=1).reshape(-1, 3)
+    return np.asarray(np.diag((1.4826 * np.median(np.abs(jumps), axis=0)) ** 2 / 2.0 + 2.0))
+
+
+Separation = Callable[[FloatArray, FloatArray, FloatArray], FloatArray]
+SEPARATIONS: tuple[Separation, ...] = (_scatter, _noise)
+"""Covariances against which the colour step across the rim is weighed; the better look is kept."""
 
 
 def _profiles(
@@ -109,23 +143,27 @@ def _profiles(
 def _half_contrast(values: FloatArray, distances: FloatArray) -> FloatArray:
     """Distance of the half-contrast crossing along each ray, NaN where there is none.
 
-    Each ray's own levels inside (0.3 to 0.65 radii) and outside (from 1.35 radii) set its half contrast, the
-    outside being averaged over neighbouring rays.
+    Values are 0 in the spot's colour and −1 in the typical colour outside. Each ray's own levels inside (0.3
+    to 0.65 radii) and outside (from 1.35 radii), taken with its neighbours', set its half contrast. Just
+    within the crossing the spot's colour must show: a highlight farther in does no harm, the edge of a cover
+    does not count.
     """
     kernel = np.array([0.25, 0.5, 0.25])
     smooth = np.apply_along_axis(lambda row: np.convolve(np.pad(row, 1, "edge"), kernel, "valid"), 1, values)
     near = (distances > 0.3) & (distances < 0.65)
     far = (distances > 1.35) & (distances < 1.75)
-    inside = _circular_median(np.median(smooth[:, near], axis=1), 9)
+    inside = np.clip(_circular_median(np.median(smooth[:, near], axis=1), 9), -0.2, 0.2)
     outside = _circular_median(np.median(smooth[:, far], axis=1), 9)
     half = 0.5 * (inside + outside)
-    clear = (inside - outside) > 0.35
     below = smooth < half[:, None]
     falls = ~below[:, :-1] & below[:, 1:] & (distances[None, 1:] > 0.4)
     crossing = np.full(len(values), np.nan)
-    for ray in np.flatnonzero(clear & falls.any(axis=1)):
+    for ray in np.flatnonzero((inside - outside > 0.35) & falls.any(axis=1)):
         places = np.flatnonzero(falls[ray])
         place = places[np.argmin(np.abs(distances[places] - 1.0))]
+        within = smooth[ray, (distances > distances[place] - 0.4) & (distances < distances[place] - 0.15)]
+        if within.max() < inside[ray] - 0.3:
+            continue
         before, after = smooth[ray, place], smooth[ray, place + 1]
         share = (before - half[ray]) / max(before - after, 1e-12)
         crossing[ray] = distances[place] + share * (distances[place + 1] - distances[place])

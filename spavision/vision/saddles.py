@@ -15,6 +15,9 @@ RING_SAMPLES = 24
 RING_RADII = (0.28, 0.42)
 """Radii of the two sampled rings, in squares: clear of the blurred corner, short of the next one."""
 
+WORST_QUADRANT = 0.2
+"""Least brightness difference of any one quadrant, over that of all four."""
+
 WINDOW_SQUARES = 0.3
 """Half width of the sub-pixel window, in squares."""
 
@@ -124,6 +127,7 @@ def ring_test(
     angle = (np.arange(RING_SAMPLES) + 0.5) * (2.0 * np.pi / RING_SAMPLES)
     across, down = field_vectors
     quality, contrast = np.zeros(len(pixels)), np.zeros(len(pixels))
+    quadrants = np.zeros((len(pixels), 4))
     template = np.sin(2.0 * angle).astype(np.float32)
     template /= np.linalg.norm(template)
     for radius in RING_RADII:
@@ -138,9 +142,14 @@ def ring_test(
         norm = np.linalg.norm(values, axis=1)
         # A square wave correlates with its own sine at 0.9: that is the best a sharp corner can reach.
         quality += projection / np.maximum(norm, 1e-6) / len(RING_RADII)
+        quadrants += values.reshape(len(pixels), 4, RING_SAMPLES // 4).mean(axis=2)
         contrast += np.abs(projection) * np.sqrt(2.0 / RING_SAMPLES) / len(RING_RADII)
     parity = np.where(quality >= 0, 1, -1).astype(np.int8)
-    return parity, np.clip(np.abs(quality) / 0.95, 0.0, 1.0), contrast
+    quality = np.clip(np.abs(quality) / 0.95, 0.0, 1.0)
+    # At the board's border and along occluders one quadrant or two have the wrong colour.
+    agreeing = quadrants * (parity[:, None] * np.array([1.0, -1.0, 1.0, -1.0]))
+    quality[agreeing.min(axis=1) < WORST_QUADRANT * agreeing.mean(axis=1)] = 0.0
+    return parity, quality, contrast
 
 
 def find_candidates(gray: FloatImage, field: LatticeField) -> Candidates:

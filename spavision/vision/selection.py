@@ -18,6 +18,9 @@ USUAL_STEP_SQUARES = 6.0
 LARGEST_MOTION_COST = 2.0
 """A jump of any length costs no more than this: pressures may be far apart."""
 
+COST_ON_BOARD = 4.0
+"""Cost of a spot that the board's corners surround: the marker's carrier hides them."""
+
 STATIC_SQUARES = 0.15
 """Motion within which a spot counts as fixed to the board."""
 
@@ -83,6 +86,7 @@ def _trace(best: list[list[float]], back: list[list[tuple[int, int] | None]]) ->
 def _look_cost(candidate: Candidate, radius: float | None) -> float:
     cost = (candidate.roundness / 0.04) ** 2 + 4.0 * (1.0 - candidate.coverage)
     cost += (12.0 / max(candidate.contrast, 1.0)) ** 2 + 0.5 * (20.0 / max(candidate.strength, 1.0)) ** 2
+    cost += COST_ON_BOARD * candidate.on_board
     if radius is not None:
         cost += (np.log(candidate.radius_squares / radius) / 0.15) ** 2
     return float(cost)

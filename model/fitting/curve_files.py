@@ -95,6 +95,8 @@ def read_curve(path: Path, form: CurveFormat | None = None) -> MeasuredCurve:
     if is_true:
         # an incompressible body's section shrinks by λ in the loaded direction, in each of the three tests
         stress = stress / stretch
+    if "crosshead" in text[:_PREAMBLE_LENGTH].lower():
+        strain_notes = (*strain_notes, "strain from the crosshead: too large where the grips let slip")
     points = first_loading(
         Points(stretch, stress, (*mode_notes, *strain_notes, *stress_notes)), source=source
     )

@@ -18,7 +18,13 @@ DEFAULT_DENSITY_G_PER_CM3 = 1.1
 
 @click.command()
 @click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
-@click.option("--law", default="ogden", show_default=True, help="Law to fit (ogden: three terms), or all.")
+@click.option(
+    "--law",
+    default="ogden",
+    show_default=True,
+    help="neo-hooke, mooney2, mooney3, mooney5, yeoh, gent, arruda-boyce, ogden1 to ogden4 (ogden: three terms), "
+    "or all.",
+)
 @click.option(
     "--mode",
     multiple=True,

@@ -174,6 +174,7 @@ def test_marechal_files_read_as_they_are():
     """17 lines above the numbers, true and engineering columns; first and last rows as in the file."""
     curve = read_curve(shared_data("marechal_sorodb/Ecoflex 00-30.csv"))
     assert (len(curve), curve.mode.name) == (705, "uniaxial")
+    assert any("crosshead" in note for note in curve.notes)
     assert (curve.strain[0], curve.stress_MPa[0]) == pytest.approx((0.06795, 0.00149))
     assert (curve.strain[-1], curve.stress_MPa[-1]) == pytest.approx((16.06818, 1.35949))
 

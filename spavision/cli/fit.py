@@ -22,8 +22,8 @@ DEFAULT_DENSITY_G_PER_CM3 = 1.1
     "--law",
     default="ogden",
     show_default=True,
-    help="neo-hooke, mooney2, mooney3, mooney5, yeoh, gent, arruda-boyce, ogden1 to ogden4 (ogden: three terms), "
-    "or all.",
+    help="neo-hooke, mooney2, mooney3, mooney5, yeoh, gent, arruda-boyce, ogden1 to ogden4 (ogden: three "
+    "terms), or all.",
 )
 @click.option(
     "--mode",

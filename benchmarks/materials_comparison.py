@@ -19,8 +19,8 @@ from spavision.model.composite import PaperLayer
 from spavision.model.fitting.fit import FitSettings, LawFit, fit_law
 from spavision.model.fitting.measured_curve import MeasuredCurve
 from spavision.model.fitting.transition import StrainTransition, strain_transition, transition_or_none
-from spavision.model.materials.catalogue import find_material
 from spavision.model.materials.curves import UNIAXIAL, fibre_composite_stress
+from spavision.model.materials.library import find_material
 from spavision.model.materials.slack_fibre import SlackFibre
 
 CRIMP_RATIO = 0.3

@@ -1,80 +1,95 @@
-"""The silicones with published parameters, read from the data files beside this module."""
+"""The material library: what comes with the program, and what stands in the user's folder."""
 
 from __future__ import annotations
 
-import tomllib
-from dataclasses import dataclass
+import os
 from functools import cache
 from importlib.resources import files
+from pathlib import Path
 
 from spavision.errors import InputError
 
-from .ogden import Ogden
-from .solid import BULK_TO_SHEAR, SolidMaterial
+from .material_files import Material, parse_material, read_material
 
-_TONNE_PER_MM3_PER_G_PER_CM3 = 1e-9
+FOLDER_VARIABLE = "SPAVISION_MATERIALS"
+"""Environment variable that names the user's folder of material files."""
 
-
-@dataclass(frozen=True)
-class PublishedMaterial:
-    """A silicone's published parameters.
-
-    Parameters
-    ----------
-    name : str
-    law : Ogden
-    density_g_per_cm3 : float
-    source : str
-    """
-
-    name: str
-    law: Ogden
-    density_g_per_cm3: float
-    source: str
-
-    def solid(self, *, bulk_to_shear: float = BULK_TO_SHEAR) -> SolidMaterial:
-        """Return the material as the solver takes it."""
-        return SolidMaterial(
-            law=self.law,
-            bulk_modulus_MPa=bulk_to_shear * self.law.shear_modulus_MPa,
-            density_tonne_per_mm3=self.density_g_per_cm3 * _TONNE_PER_MM3_PER_G_PER_CM3,
-        )
+_ENDING = ".toml"
 
 
 @cache
-def published_materials() -> dict[str, PublishedMaterial]:
-    """Return every material of the library by name, in alphabetical order."""
-    folder = files(__package__) / "data"
+def published_materials() -> dict[str, Material]:
+    """Return the materials that come with the program by name, each followed by its alternatives."""
+    data = files(__package__) / "data"
+    entries = [entry for folder in (data, data / "alternatives") for entry in folder.iterdir()]
     materials = [
-        _from_toml(entry.read_text(encoding="utf-8"))
-        for entry in folder.iterdir()
-        if entry.name.endswith(".toml")
+        parse_material(entry.read_text(encoding="utf-8"), source=entry.name)
+        for entry in entries
+        if entry.name.endswith(_ENDING)
     ]
-    return {material.name: material for material in sorted(materials, key=lambda one: one.name)}
+    return {material.name: material for material in sorted(materials, key=_family_order)}
 
 
-def find_material(name: str) -> PublishedMaterial:
-    """Return the material of that name.
+def user_materials(folder: Path | None = None) -> dict[str, Material]:
+    """Return the materials of the user's folder by name.
+
+    Parameters
+    ----------
+    folder : Path, optional
+        The folder that `FOLDER_VARIABLE` names unless given; without either there are none.
 
     Raises
     ------
     InputError
-        If the library holds none.
+        If the folder does not exist, a file in it is not valid, or two bear one name.
     """
-    library = published_materials()
-    if name not in library:
-        raise InputError(f"material {name!r} is not in the library, expected one of {', '.join(library)}")
-    return library[name]
+    if folder is None:
+        named = os.environ.get(FOLDER_VARIABLE, "")
+        if not named:
+            return {}
+        folder = Path(named)
+    if not folder.is_dir():
+        raise InputError(
+            f"{folder}: is not a folder, expected one with material files; correct --materials or "
+            f"the variable {FOLDER_VARIABLE}"
+        )
+    found: dict[str, Material] = {}
+    for path in sorted(folder.glob(f"*{_ENDING}")):
+        material = read_material(path)
+        if material.name in found:
+            raise InputError(f"{path}: the name {material.name!r} stands in another file too; change one")
+        found[material.name] = material
+    return found
 
 
-def _from_toml(text: str) -> PublishedMaterial:
-    data = tomllib.loads(text)
-    law = data["law"]
-    if law["kind"] != "ogden" or law["convention"] != "mu/alpha":
-        raise ValueError(f"{data['name']}: expected an Ogden law in the convention mu/alpha")
-    return PublishedMaterial(
-        name=data["name"],
-        law=Ogden(tuple(law["mu_MPa"]), tuple(law["alpha"])),
-        density_g_per_cm3=data["density_g_per_cm3"],
-        source=data["source"],
-    )
+def all_materials(folder: Path | None = None) -> dict[str, Material]:
+    """Return every material by name; one of the user's replaces a packaged one of the same name."""
+    return published_materials() | user_materials(folder)
+
+
+def find_material(name: str, folder: Path | None = None) -> Material:
+    """Return the material of that name, or that of the file where the name ends in ``.toml``.
+
+    Raises
+    ------
+    InputError
+        If there is none, or a file is not valid.
+    """
+    if name.endswith(_ENDING):
+        return read_material(Path(name))
+    materials = all_materials(folder)
+    if name not in materials:
+        raise InputError(
+            f"material {name!r} is unknown, expected one of {', '.join(materials)}, or the path of "
+            "a material file"
+        )
+    return materials[name]
+
+
+def alternatives(name: str, folder: Path | None = None) -> tuple[Material, ...]:
+    """Return the other sets of parameters for a material, which a study can sweep."""
+    return tuple(each for each in all_materials(folder).values() if each.alternative_to == name)
+
+
+def _family_order(material: Material) -> tuple[str, bool, str]:
+    return material.alternative_to or material.name, bool(material.alternative_to), material.name

@@ -25,7 +25,7 @@ def materials(name: str | None, folder: Path | None, as_json: bool) -> None:
 
     Sets of parameters that disagree on one material stand below it as alternatives.
     """
-    from spavision.model.materials.catalogue import all_materials, find_material
+    from spavision.model.materials.library import all_materials, find_material
     from spavision.model.materials.sheet import published_sheets
 
     from . import output

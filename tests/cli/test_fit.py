@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from spavision.model.materials.catalogue import find_material
+from spavision.model.materials.library import find_material
 
 STRAIN = np.linspace(0.0, 0.6, 61)
 KNEE = 0.1 * STRAIN + 2.0 * np.maximum(STRAIN - 0.4, 0.0)

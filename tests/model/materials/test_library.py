@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from spavision.errors import InputError
-from spavision.model.materials.catalogue import (
+from spavision.model.materials.curves import UNIAXIAL, nominal_stress
+from spavision.model.materials.library import (
     FOLDER_VARIABLE,
     all_materials,
     alternatives,
     find_material,
-    packaged_materials,
+    published_materials,
 )
-from spavision.model.materials.curves import UNIAXIAL, nominal_stress
 from spavision.model.materials.material_files import Material, material_text
 from spavision.model.materials.neo_hooke import NeoHooke
 from spavision.model.materials.sheet import published_sheets
@@ -43,9 +43,9 @@ def test_sources_disagree_as_much_as_told():
     assert liao == pytest.approx(1.75, abs=0.1)
 
 
-@pytest.mark.parametrize("name", packaged_materials())
-def test_packaged_materials_are_complete_and_stable_in_tension(name):
-    material = packaged_materials()[name]
+@pytest.mark.parametrize("name", published_materials())
+def test_published_materials_are_complete_and_stable_in_tension(name):
+    material = published_materials()[name]
     assert material.source
     assert stable_range(material.law, UNIAXIAL).covers(1.0, 3.0)
     if material.alternative_to:

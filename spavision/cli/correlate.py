@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .options import model_options, photo_options, run_options
+from .options import experiment_option, model_options, photo_options, results_options
 
 if TYPE_CHECKING:
     from .comparison import Comparison
@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 )
 @photo_options
 @model_options
-@run_options
+@experiment_option
+@results_options
 def correlate(photos: Path | None, measured: Path | None, pressure_unit: str, **given: Any) -> None:
     """Compare the measured with the modelled tip path.
 

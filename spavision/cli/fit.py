@@ -9,6 +9,8 @@ import click
 
 from spavision.errors import InputError
 
+from .options import results_options
+
 if TYPE_CHECKING:
     from .fit_results import FitRun
 
@@ -52,12 +54,7 @@ DEFAULT_DENSITY_G_PER_CM3 = 1.1
     show_default=True,
     help="For that file.",
 )
-@click.option(
-    "--output", "-o", type=click.Path(path_type=Path), help="Results folder [default: results/fit-<data>]."
-)
-@click.option("--force", is_flag=True, help="Replace the files of an earlier run.")
-@click.option("--quiet", "-q", is_flag=True, help="Print only the results' place.")
-@click.option("--json", "as_json", is_flag=True, help="Print the result as JSON on standard output.")
+@results_options
 def fit(data: tuple[Path, ...], **given: Any) -> None:
     """Fit a hyperelastic law to the curves in DATA, files of one material: several modes, replicates.
 

@@ -31,7 +31,7 @@ PHOTO_OPTIONS = {
 MODEL_OPTIONS = {"crimp": ("actuator", "crimp_ratio"), "mesh": ("model", "mesh")}
 
 
-def run_options(command: Command) -> Command:
+def results_options(command: Command) -> Command:
     """Add the options of every command that writes a results folder."""
     for option in (
         click.option("--json", "as_json", is_flag=True, help="Print the result as JSON on standard output."),
@@ -45,14 +45,18 @@ def run_options(command: Command) -> Command:
             type=click.Path(path_type=Path),
             help="Results folder [default: results/<command>-<input>].",
         ),
-        click.option(
-            "--experiment",
-            type=click.Path(path_type=Path),
-            help=f"Experiment file [default: {FILE_NAME} beside the photos].",
-        ),
     ):
         command = option(command)
     return command
+
+
+def experiment_option(command: Command) -> Command:
+    """Add the option that names an experiment file."""
+    return click.option(
+        "--experiment",
+        type=click.Path(path_type=Path),
+        help=f"Experiment file [default: {FILE_NAME} beside the photos].",
+    )(command)
 
 
 def photo_options(command: Command) -> Command:

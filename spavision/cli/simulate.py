@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from .options import MODEL_OPTIONS, model_options, run_options
+from .options import MODEL_OPTIONS, experiment_option, model_options, results_options
 
 DEFAULT_PRESSURES = "0:65:5"
 
@@ -20,7 +20,8 @@ DEFAULT_PRESSURES = "0:65:5"
     help="from:to:step, or a list separated by commas.",
 )
 @model_options
-@run_options
+@experiment_option
+@results_options
 def simulate(pressures_kpa: str, **given: Any) -> None:
     """Run the 3D finite-element model of the actuator.
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .options import PHOTO_OPTIONS, photo_options, run_options
+from .options import PHOTO_OPTIONS, experiment_option, photo_options, results_options
 
 if TYPE_CHECKING:
     from .measure import Measurement
@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("photos", type=click.Path(path_type=Path))
 @photo_options
-@run_options
+@experiment_option
+@results_options
 def track(photos: Path, **given: Any) -> None:
     """Measure the displacement of the tip in PHOTOS, a folder of photographs.
 

@@ -41,6 +41,7 @@ class CameraSection(_Section):
     distance_mm: float | None = Field(
         None, ge=50, le=20000, description="camera to board, along the normal, mm"
     )
+    file: str | None = Field(None, description="camera.toml of spavision calibrate")
 
 
 class MarkerSection(_Section):

@@ -15,6 +15,7 @@ from spavision.errors import InputError, InputWarning
 
 COMMANDS = {
     "track": "Measure the tip in photographs: photos -> tip path with uncertainty.",
+    "calibrate": "Calibrate a camera: photos of a whole board -> camera.toml, coverage map.",
     "simulate": "Run the 3D finite-element model: pressures -> tip path, fields.",
     "correlate": "Compare the measured with the modelled tip path at the same pressures.",
     "fit": "Fit hyperelastic laws to test data, with uncertainty and stability.",

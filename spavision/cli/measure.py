@@ -94,7 +94,7 @@ def measure(folder: Path, experiment: Experiment, *, quiet: bool) -> Measurement
 
     photos = find_photos(folder)
     pressure_kPa = _pressures([path.name for path in photos], folder, experiment)
-    settings = _track_settings(experiment)
+    settings = _track_settings(folder, experiment)
     done = 0
     with progress_bar("photos", total=len(photos), quiet=quiet) as advance:
 
@@ -155,14 +155,17 @@ def _pressures(names: list[str], folder: Path, experiment: Experiment) -> FloatA
     return pressures_from_names(names)
 
 
-def _track_settings(experiment: Experiment) -> TrackSettings:
+def _track_settings(folder: Path, experiment: Experiment) -> TrackSettings:
+    from spavision.vision.camera_file import read_camera
     from spavision.vision.settings import TrackSettings
 
+    file = experiment.camera.file
     return TrackSettings(
         square_mm=experiment.board.square_mm,
         board_scale=experiment.board.scale,
         standoff_mm=experiment.camera.standoff_mm,
         distance_mm=experiment.camera.distance_mm,
+        camera=None if file is None else read_camera(_beside(folder, file)).camera,
         marker_colour=experiment.marker.colour,
         marker_diameter_mm=experiment.marker.diameter_mm,
     )

@@ -1,0 +1,303 @@
+"""From photographs of a board to a calibrated camera: the main road of ``spavision calibrate``."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from spavision.errors import InputError
+
+from .adjustment import View
+from .arrays import FloatArray
+from .bundle import PARAMETERS, Bundle, LensModel, adjust_bundle
+from .calibration_corners import BoardCorners, lattice_corners, opencv_corners, within_board
+from .camera import Camera, Pose
+from .coverage import Coverage, cover, coverage_notes
+from .photos import read_photo
+
+FINDERS = ("lattice", "opencv")
+FEWEST_PHOTOS = 3
+GOOD_NUMBER_OF_PHOTOS = 8
+FEWEST_CORNERS = 8
+WORSE_THAN_MEDIAN = 3.0
+LARGEST_FOCAL_SIGMA = 0.01
+
+
+@dataclass(frozen=True)
+class CalibrationSettings:
+    """Settings of `calibrate`.
+
+    Parameters
+    ----------
+    corners : pair of int or None
+        Inner corners of the board, columns and rows; found when None.
+    square_mm : float
+        Side of a square: scales the distances, leaves the intrinsic parameters alone.
+    finder : str
+        ``lattice``: the tracker's own, for whole or partly visible boards, sub-pixel window scaled to the
+        squares. ``opencv``: OpenCV's calibration sample to the letter, for comparison; needs ``corners``.
+    model : LensModel
+        Which parameters are free.
+    """
+
+    corners: tuple[int, int] | None = None
+    square_mm: float = 2.5
+    finder: str = "lattice"
+    model: LensModel = field(default_factory=LensModel)
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.square_mm) and self.square_mm > 0):
+            raise InputError(f"--square-mm is {self.square_mm:g}; expected a length above 0")
+        if self.corners is not None and not 3 <= min(self.corners) <= max(self.corners) <= 1000:
+            raise InputError(
+                f"--corners is {self.corners[0]}x{self.corners[1]}; expected inner corners, 3 to 1000 a "
+                "side, such as 9x6 for a board of 10 by 7 squares"
+            )
+        if self.finder not in FINDERS:
+            raise InputError(f"--finder is {self.finder!r}; expected one of {', '.join(FINDERS)}")
+        if self.finder == "opencv" and self.corners is None:
+            raise InputError("--finder opencv needs --corners, such as 9x6; OpenCV does not find the number")
+
+
+@dataclass(frozen=True)
+class CalibrationPhoto:
+    """What one photograph contributed.
+
+    Parameters
+    ----------
+    photo : str
+        File name.
+    corners : BoardCorners
+        Its corners.
+    pose : Pose
+        The board before the camera, mm.
+    residuals_px : array, shape (n, 2)
+        Corners less their projections.
+    """
+
+    photo: str
+    corners: BoardCorners
+    pose: Pose
+    residuals_px: FloatArray
+
+    @property
+    def rms_px(self) -> float:
+        """Root mean square length of the residuals."""
+        return float(np.sqrt((self.residuals_px**2).sum(axis=1).mean()))
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """Result of `calibrate`.
+
+    Parameters
+    ----------
+    camera : Camera
+        Intrinsic parameters.
+    covariance : array, shape (9, 9)
+        Of `spavision.vision.bundle.PARAMETERS`.
+    rms_px : float
+        Root mean square distance of corners from their projections.
+    sigma_px : float
+        Standard deviation of one corner coordinate.
+    board : pair of int
+        Inner corners of the board, asked for or found.
+    photos : tuple of CalibrationPhoto
+        The photographs used.
+    left_out : tuple of (str, str)
+        File name and reason of each photograph left out.
+    coverage : Coverage
+    notes : tuple of str
+        What the user should know.
+    """
+
+    camera: Camera
+    covariance: FloatArray
+    rms_px: float
+    sigma_px: float
+    board: tuple[int, int]
+    photos: tuple[CalibrationPhoto, ...]
+    left_out: tuple[tuple[str, str], ...]
+    coverage: Coverage
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Found:
+    """One photograph after the search: its size, and its corners or what is wrong with it."""
+
+    name: str
+    size: tuple[int, int] | None
+    corners: BoardCorners | None
+    problem: str = ""
+
+
+def calibrate(
+    paths: Sequence[Path], settings: CalibrationSettings, *, progress: Callable[[str], None] | None = None
+) -> Calibration:
+    """Calibrate a camera from photographs of one flat board.
+
+    Parameters
+    ----------
+    paths : sequence of Path
+        The photographs; those without a board are left out and named.
+    settings : CalibrationSettings
+    progress : callable, optional
+        Called with a photograph's name after it has been searched.
+
+    Raises
+    ------
+    InputError
+        If sizes are mixed, too few photographs show the board, the number of corners asked for is wrong, or
+        the photographs do not determine a camera.
+    """
+    found = _without_copies(_search_all(paths, settings, progress))
+    size = _common_size(found)
+    used = [each for each in found if each.corners is not None]
+    _refuse_too_few(found, used, settings)
+    boards = [each.corners for each in used if each.corners is not None]
+    views = [View(board.indices.astype(float) * settings.square_mm, board.pixels) for board in boards]
+    bundle = adjust_bundle(views, size, settings.model)
+    if bundle is None:
+        raise InputError(
+            "the photographs do not determine the camera, as when the board always faces it squarely; "
+            "add photos with the board tilted by 20 to 40°"
+        )
+    photos = tuple(
+        CalibrationPhoto(each.name, board, pose, residuals)
+        for each, board, pose, residuals in zip(used, boards, bundle.poses, bundle.residuals_px, strict=True)
+    )
+    coverage = cover(bundle.camera, [board.pixels for board in boards], bundle.poses)
+    left_out = tuple((each.name, each.problem) for each in found if each.corners is None)
+    return Calibration(
+        camera=bundle.camera,
+        covariance=bundle.covariance,
+        rms_px=bundle.rms_px,
+        sigma_px=bundle.sigma_px,
+        board=settings.corners or max((board.extent for board in boards), key=lambda size: size[0] * size[1]),
+        photos=photos,
+        left_out=left_out,
+        coverage=coverage,
+        notes=(*_notes(bundle, photos, left_out), *coverage_notes(coverage)),
+    )
+
+
+def _search_all(
+    paths: Sequence[Path], settings: CalibrationSettings, progress: Callable[[str], None] | None
+) -> list[_Found]:
+    found = []
+    # As in the tracker: OpenCV and NumPy let other threads run meanwhile.
+    with ThreadPoolExecutor(max_workers=max(1, min(os.cpu_count() or 1, len(paths)))) as pool:
+        for each in pool.map(lambda path: _search(path, settings), paths):
+            found.append(each)
+            if progress is not None:
+                progress(each.name)
+    return found
+
+
+def _search(path: Path, settings: CalibrationSettings) -> _Found:
+    try:
+        gray = read_photo(path).gray
+    except InputError as error:
+        return _Found(path.name, None, None, str(error))
+    size = (gray.shape[1], gray.shape[0])
+    if settings.finder == "opencv" and settings.corners is not None:
+        corners = opencv_corners(gray, settings.corners)
+    else:
+        corners = lattice_corners(gray, settings.corners)
+    if corners is None:
+        return _Found(path.name, size, None, "no board found")
+    if settings.corners is not None:
+        seen, corners = corners.extent, within_board(corners, settings.corners)
+        if corners is None:
+            asked = f"{settings.corners[0]}×{settings.corners[1]}"
+            return _Found(path.name, size, None, f"shows {seen[0]}×{seen[1]} corners, not {asked}")
+    if len(corners.indices) < FEWEST_CORNERS:
+        return _Found(path.name, size, None, f"only {len(corners.indices)} corners found")
+    return _Found(path.name, size, corners)
+
+
+def _without_copies(found: list[_Found]) -> list[_Found]:
+    """Set aside photographs whose corners are another's to the last bit: copies count once."""
+    first: dict[bytes, str] = {}
+    kept = []
+    for each in found:
+        if each.corners is not None:
+            original = first.setdefault(each.corners.pixels.tobytes(), each.name)
+            if original != each.name:
+                each = _Found(each.name, each.size, None, f"is a copy of {original}")
+        kept.append(each)
+    return kept
+
+
+def _common_size(found: list[_Found]) -> tuple[int, int]:
+    sizes = Counter(each.size for each in found if each.size is not None)
+    if not sizes:
+        raise InputError(f"no photograph could be read: {found[0].problem if found else 'none was given'}")
+    (width, height), _ = sizes.most_common(1)[0]
+    for each in found:
+        if each.size is not None and each.size != (width, height):
+            raise InputError(
+                f"{each.name} has {each.size[0]}×{each.size[1]} px, most photos {width}×{height} px; "
+                "calibrate with photos of one camera, all of one size and turned the same way"
+            )
+    return width, height
+
+
+def _refuse_too_few(found: list[_Found], used: list[_Found], settings: CalibrationSettings) -> None:
+    if not used:
+        named = settings.corners is not None
+        other = next((each for each in found if each.problem.startswith("shows ")), None)
+        if other is not None:
+            raise InputError(f"{other.name} {other.problem}; correct --corners or leave it off")
+        raise InputError(
+            "no board was found in any photograph; "
+            + (
+                "check --corners, "
+                if named
+                else "give --corners for a board of fewer than 20 inner corners, "
+            )
+            + "and keep the board flat, in focus and evenly lit"
+        )
+    if len(used) < FEWEST_PHOTOS:
+        raise InputError(
+            f"{len(used)} of {len(found)} photographs show the board, {FEWEST_PHOTOS} or more are needed and "
+            f"10 to 20 are good; add photos with the board tilted in several directions"
+        )
+    if settings.corners is None:
+        return
+    largest = max((each.corners.extent for each in used if each.corners), key=lambda size: size[0] * size[1])
+    asked = (max(settings.corners), min(settings.corners))
+    if largest[0] < asked[0] or largest[1] < asked[1]:
+        raise InputError(
+            f"--corners is {settings.corners[0]}x{settings.corners[1]}, but no photograph shows more than "
+            f"{largest[0]}×{largest[1]} inner corners; correct it, or leave it off for partly visible boards"
+        )
+
+
+def _notes(
+    bundle: Bundle, photos: tuple[CalibrationPhoto, ...], left_out: tuple[tuple[str, str], ...]
+) -> list[str]:
+    notes = [f"{name} was left out: {reason}" for name, reason in left_out]
+    median = float(np.median([photo.rms_px for photo in photos]))
+    notes += [
+        f"{photo.photo} fits far worse than the rest ({photo.rms_px:.2f} px, median {median:.2f} px); look "
+        "at it: board bent, blurred, or corners wrong"
+        for photo in photos
+        if photo.rms_px > WORSE_THAN_MEDIAN * median
+    ]
+    if len(photos) < GOOD_NUMBER_OF_PHOTOS:
+        notes.append(f"{len(photos)} photos are few; 10 to 20 make the result trustworthy")
+    sigma = float(np.sqrt(bundle.covariance[PARAMETERS.index("fx_px"), PARAMETERS.index("fx_px")]))
+    if sigma > LARGEST_FOCAL_SIGMA * bundle.camera.fx:
+        notes.append(
+            f"the focal length is known to ±{100 * sigma / bundle.camera.fx:.1f} % only; "
+            "add photos with the board tilted by 20 to 40° that fill the frame"
+        )
+    return notes

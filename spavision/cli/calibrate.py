@@ -14,7 +14,7 @@ from .options import results_options
 
 if TYPE_CHECKING:
     from spavision.results import ResultsFolder
-    from spavision.vision.calibrate import Calibration, CalibrationSettings
+    from spavision.vision.calibration import Calibration, CalibrationSettings
 
 
 @click.command()
@@ -75,7 +75,7 @@ def calibrate(photos: Path, **given: Any) -> None:
 
 def _settings(given: dict[str, Any]) -> CalibrationSettings:
     from spavision.vision.bundle import LensModel
-    from spavision.vision.calibrate import CalibrationSettings
+    from spavision.vision.calibration import CalibrationSettings
 
     names = ("fix_aspect_ratio", "fix_principal_point", "zero_tangential", "zero_k3")
     return CalibrationSettings(

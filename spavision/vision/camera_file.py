@@ -14,7 +14,7 @@ from spavision.tables import read_toml
 
 from .arrays import FloatArray
 from .bundle import PARAMETERS, parameter_values
-from .calibrate import Calibration
+from .calibration import Calibration
 from .camera import Camera
 
 Size = Annotated[int, Field(gt=0, le=100_000, strict=True)]

@@ -15,12 +15,12 @@ CELLS_ACROSS = 6
 """Cells of the coverage map along the longer and the shorter side of the frame."""
 
 LEAST_SHARE = 0.6
-LEAST_REACH = 0.7
+LARGEST_GAP = 0.35
 TILTED_DEG = 15.0
 LEAST_TILTED = 4
 LEAST_SPREAD_DEG = 8.0
 
-QUADRANTS = {"upper left": (-1, -1), "upper right": (1, -1), "lower left": (-1, 1), "lower right": (1, 1)}
+FRAME_CORNERS = {"upper left": (0, 0), "upper right": (1, 0), "lower left": (0, 1), "lower right": (1, 1)}
 
 
 @dataclass(frozen=True)
@@ -31,9 +31,8 @@ class Coverage:
     ----------
     counts : int array, shape (rows, columns)
         Corners in each cell of the frame.
-    reach : dict
-        For each quadrant of the frame, how far its farthest corner lies from the frame's middle, over the
-        distance of the frame's own corner.
+    gap : dict
+        For each corner of the frame, how far the nearest corner of a board is, over half the diagonal.
     tilt_deg : array, shape (photographs,)
         Angle between the optical axis and the board's normal.
     slope_deg : array, shape (photographs, 2)
@@ -41,7 +40,7 @@ class Coverage:
     """
 
     counts: IntArray
-    reach: dict[str, float]
+    gap: dict[str, float]
     tilt_deg: FloatArray
     slope_deg: FloatArray
 
@@ -76,27 +75,25 @@ def cover(camera: Camera, pixels: Sequence[FloatArray], poses: Sequence[Pose]) -
     column, row = np.clip((places * cells).astype(np.intp), 0, np.array(cells) - 1).T
     counts = np.zeros(cells[::-1], dtype=np.intp)
     np.add.at(counts, (row, column), 1)
-    offset = (places - 0.5) * size
-    distance = np.linalg.norm(offset, axis=1) / (0.5 * np.linalg.norm(size))
-    reach = {
-        name: float(distance[(offset * signs > 0).all(axis=1)].max(initial=0.0))
-        for name, signs in QUADRANTS.items()
+    gap = {
+        name: float(np.linalg.norm((places - corner) * size, axis=1).min() / (0.5 * np.linalg.norm(size)))
+        for name, corner in FRAME_CORNERS.items()
     }
     normals = np.array([pose.matrix[:, 2] for pose in poses])
     normals *= np.where(normals[:, 2:] < 0, -1.0, 1.0)
     tilt = np.degrees(np.arccos(np.clip(normals[:, 2], -1.0, 1.0)))
     flat = np.linalg.norm(normals[:, :2], axis=1, keepdims=True)
     slope = tilt[:, None] * normals[:, :2] / np.maximum(flat, 1e-12)
-    return Coverage(counts, reach, tilt, slope)
+    return Coverage(counts, gap, tilt, slope)
 
 
 def coverage_notes(coverage: Coverage) -> tuple[str, ...]:
     """Return what further photographs are needed, a sentence each; none when the set is good."""
     notes = []
-    short = [name for name, reach in coverage.reach.items() if reach < LEAST_REACH]
-    if short:
+    far = [name for name, gap in coverage.gap.items() if gap > LARGEST_GAP]
+    if far:
         notes.append(
-            f"poor coverage: no corner near the {_joined(short)} corner of the frame, where the distortion "
+            f"poor coverage: no corner near the {_joined(far)} corner of the frame, where the distortion "
             "is a guess; add photos with the board there"
         )
     if coverage.share < LEAST_SHARE:

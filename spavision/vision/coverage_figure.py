@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
-from .calibrate import Calibration
+from .calibration import Calibration
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -36,6 +36,14 @@ def bulk_modulus(shear_modulus_MPa: float, poisson: float) -> float:
     return 2.0 * shear_modulus_MPa * (1.0 + poisson) / (3.0 * (1.0 - 2.0 * poisson))
 
 
+def cube(material: SolidMaterial) -> Equilibrium:
+    """Return a unit cube whose skin is held."""
+    lines = np.linspace(0.0, 1.0, 3)
+    mesh = structured_mesh(TensorGrid(lines, lines, lines), order=2)
+    on_skin = np.any(np.isclose(mesh.nodes_mm, 0.0) | np.isclose(mesh.nodes_mm, 1.0), axis=1)
+    return Equilibrium(mesh, {"solid": material}, is_fixed=np.repeat(on_skin[:, None], 3, axis=1))
+
+
 def tube(material: SolidMaterial, *, order: int, cells: int, outer_radius: float = 2.0) -> Equilibrium:
     """Return a quarter of a thick tube of inner radius 1 in plane strain."""
 

@@ -49,7 +49,15 @@ class Case:
 
 def all_cases() -> tuple[Case, ...]:
     """Return every case, in the order of the rows."""
-    return (*_tubes(), *_spheres(), *_linear(), *_bending(), *_torsion(), *_elastica(), *_cook())
+    return (*_shear(), *_tubes(), *_spheres(), *_linear(), *_bending(), *_torsion(), *_elastica(), *_cook())
+
+
+def _shear() -> list[Case]:
+    problem, source = "simple shear of 1, neo-Hooke", "closed form"
+    return [
+        Case("5", problem, "σ₁₂ in MPa", 1.0, source, 1e-6, lambda: measure.shear_stresses(1.0)[0]),
+        Case("5", problem, "σ₁₁ − σ₂₂ in MPa", 1.0, source, 1e-6, lambda: measure.shear_stresses(1.0)[1]),
+    ]
 
 
 def _tubes() -> list[Case]:

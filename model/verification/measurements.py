@@ -17,6 +17,7 @@ from .bodies import (
     bulk_modulus,
     cantilever,
     cook_membrane,
+    cube,
     cylinder,
     solid,
     sphere,
@@ -55,6 +56,19 @@ def balloon_pressures(volume_ratios: FloatArray, *, thickness: float) -> FloatAr
         point.gas_pressure_MPa for point in inflated(body, [float(ratio) for ratio in volume_ratios])
     ]
     return np.array(pressures) * mean / thickness
+
+
+def shear_stresses(amount: float) -> tuple[float, float]:
+    """Return σ₁₂ and σ₁₁ − σ₂₂ (MPa) of a neo-Hookean cube in simple shear, from the forces on its faces."""
+    body = cube(solid(NEO_HOOKE, bulk_modulus_MPa=NEARLY_INCOMPRESSIBLE))
+    x, y, z = body.mesh.nodes_mm.T
+    inside = ~body.is_free.all(axis=1)
+    guess = 0.02 * np.sin(np.pi * x) * np.sin(np.pi * y) * np.sin(np.pi * z) * ~inside
+    state = loaded(body, start=moved_to(body, np.column_stack([x + amount * y + guess, y, z])))
+    forces = reactions(body, state)
+    # The mean nominal stress of a body held at its skin alone is the sum of force times position.
+    nominal = np.einsum("ni,nj->ij", forces, body.mesh.nodes_mm)
+    return float(nominal[0, 1]), float(nominal[0, 0] + amount * nominal[0, 1] - nominal[1, 1])
 
 
 def lame_tube(poisson: float, *, order: int = 2, cells: int = 4) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -40,12 +41,18 @@ class Place:
         Projection of the circle's centre.
     partial : bool
         Whether too little of the rim is seen for a free radius.
+    rim_px : array, shape (n, 2)
+        Edge points, NaN where a ray shows no edge; empty where a person gave the centre.
+    by_hand_sigma_px : float or None
+        Standard uncertainty of a centre that a person gave; None for a measured one.
     """
 
     circle: Circle
     station: int
     centre_px: FloatArray
     partial: bool
+    rim_px: FloatArray
+    by_hand_sigma_px: float | None = None
 
 
 @dataclass(frozen=True)
@@ -105,7 +112,11 @@ def rim_in_plane(fit: CameraFit, station: int, rim_px: FloatArray, standoff_mm: 
 
 
 def uncertainty_budget(
-    places: list[Place | None], reference: Place, fit: CameraFit, settings: TrackSettings, standoff_mm: float
+    places: Sequence[Place | None],
+    reference: Place,
+    fit: CameraFit,
+    settings: TrackSettings,
+    standoff_mm: float,
 ) -> tuple[BudgetEntry, ...]:
     """Return the standard uncertainty of each displacement, source by source."""
     n = len(places)
@@ -115,8 +126,11 @@ def uncertainty_budget(
             continue
         for name, value in _entries(place, reference, fit, settings, standoff_mm).items():
             sigma[name][row] = value
+    marker = f"scatter of the rim's edge points, and {RIM_FLOOR_PX:g} px of systematic error"
+    if any(place is not None and place.by_hand_sigma_px is not None for place in places):
+        marker += f"; ±{settings.sigma_by_hand_px:g} px where the centre was given by hand"
     basis = {
-        "marker": f"scatter of the rim's edge points, and {RIM_FLOOR_PX:g} px of systematic error",
+        "marker": marker,
         "corners and camera": f"scatter of the board's corners, {fit.adjustment.sigma_px:.3f} px",
         "distance": f"±{fit.priors.sigma_distance_mm or 0:g} mm on the measured distance",
         "stand-off": f"±{settings.sigma_standoff_mm:g} mm",
@@ -173,6 +187,8 @@ def _entries(
 def _marker_variance(place: Place, fit: CameraFit, standoff_mm: float) -> FloatArray:
     pose = fit.adjustment.poses[place.station]
     mm_per_px = (pose.distance_mm - standoff_mm) / fit.adjustment.camera.fx
+    if place.by_hand_sigma_px is not None:
+        return np.full(2, (place.by_hand_sigma_px * mm_per_px) ** 2)
     by_radius = place.circle.radius_slope * (RADIUS_SIGMA * place.circle.radius)
     return np.diag(place.circle.covariance) * 2.0 + by_radius**2 + (RIM_FLOOR_PX * mm_per_px) ** 2
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from .displacement import Place
-from .observe import Observation
+import numpy as np
+
+from .evidence import Evidence
+from .places import Places
+from .readings import base_motion_mm
 from .scale import CameraFit
 from .settings import TrackSettings
-from .stations import Stations
 
 
 def correction_text(fit: CameraFit, settings: TrackSettings, factor: float) -> str:
@@ -30,24 +32,47 @@ def correction_text(fit: CameraFit, settings: TrackSettings, factor: float) -> s
     )
 
 
-def track_notes(
-    observations: list[Observation],
-    stations: Stations,
-    places: list[Place | None],
-    first: int,
-    fit: CameraFit,
-    settings: TrackSettings,
-) -> tuple[str, ...]:
+def track_notes(evidence: Evidence, places: Places) -> tuple[str, ...]:
     """Return what the user should know of a track, a sentence each."""
-    notes = [correction_text(fit, settings, 1.0 - (settings.standoff_mm or 0.0) / fit.distance_mm)]
-    if first > 0:
-        notes.append(f"{observations[first].name} is the reference, because no lower pressure has a reading")
+    observations, stations, fit = evidence.observations, evidence.stations, evidence.fit
+    factor = 1.0 - evidence.standoff_mm / fit.distance_mm
+    notes = [correction_text(fit, evidence.settings, factor)]
+    if places.reference > 0:
+        name = observations[places.reference].name
+        notes.append(f"{name} is the reference, because no lower pressure has a reading")
     moved = [o.name for o, number in zip(observations, stations.number, strict=True) if number > 0]
     if moved:
         notes.append(
             f"the camera moved against the reference photo in {', '.join(moved)}; this was taken into account"
         )
-    unread = sum(place is None for place in places)
+    notes += _base_marker_note(evidence, places)
+    notes += _by_hand_note(evidence)
+    unread = sum(place is None for place in places.tip)
     if unread:
-        notes.append(f"{unread} of {len(places)} photographs gave no reading")
+        notes.append(f"{unread} of {len(places.tip)} photographs gave no reading")
     return tuple(notes)
+
+
+def _base_marker_note(evidence: Evidence, places: Places) -> list[str]:
+    if not places.base:
+        return []
+    motion = base_motion_mm(places)
+    motion[[place is None for place in places.tip]] = np.nan
+    furthest = int(np.nanargmax(np.linalg.norm(motion, axis=1)))
+    x, y = motion[furthest]
+    return [
+        "the base marker's motion was taken off: "
+        f"at most {x:.3f} mm in x and {y:.3f} mm in y, in {evidence.observations[furthest].name}"
+    ]
+
+
+def _by_hand_note(evidence: Evidence) -> list[str]:
+    given = [name for name, correction in evidence.corrections.items() if correction.pixel is not None]
+    rejected = [name for name, correction in evidence.corrections.items() if correction.pixel is None]
+    notes = []
+    if given:
+        sigma_px = evidence.settings.sigma_by_hand_px
+        notes.append(f"the marker was given by hand, ±{sigma_px:g} px, in {', '.join(given)}")
+    if rejected:
+        notes.append(f"rejected by hand: {', '.join(rejected)}")
+    return notes

@@ -13,9 +13,25 @@ from .arrays import FloatImage, blur, sample, shrink, shrunk_place
 from .board import BoardView, find_board
 from .camera import project
 from .marker import Candidate, find_candidates
-from .photos import read_photo
+from .photos import Photo, read_photo
 
 MAP_MARGIN_SQUARES = 8
+
+
+@dataclass(frozen=True)
+class MarkerLook:
+    """How a marker looks.
+
+    Parameters
+    ----------
+    colour : tuple of int
+        sRGB, 0 to 255.
+    diameter_squares : float or None
+        Diameter in squares of the board, where known.
+    """
+
+    colour: tuple[int, int, int]
+    diameter_squares: float | None
 
 
 @dataclass(frozen=True)
@@ -51,6 +67,8 @@ class Observation:
     board : BoardView or None
     candidates : tuple of Candidate
         Spots that may be the marker.
+    base_candidates : tuple of Candidate
+        Spots that may be the base marker.
     map : BoardMap or None
     """
 
@@ -61,23 +79,41 @@ class Observation:
     focal_px: float | None = None
     board: BoardView | None = None
     candidates: tuple[Candidate, ...] = ()
+    base_candidates: tuple[Candidate, ...] = ()
     map: BoardMap | None = None
 
 
-def observe(path: Path, *, colour: tuple[int, int, int], diameter_squares: float | None) -> Observation:
+def observe(
+    path: Path, *, tip: MarkerLook, base: MarkerLook | None, largest_megapixels: float
+) -> Observation:
     """Read one photograph and measure board and marker candidates; problems are told, not raised."""
     try:
-        photo = read_photo(path)
+        photo = read_photo(path, largest_megapixels=largest_megapixels)
     except InputError as error:
         return Observation(path.name, str(error))
     height, width = photo.gray.shape
     board = find_board(photo.gray)
     if board is None:
         return Observation(path.name, "no board found in view", width, height, photo.focal_px)
-    candidates = find_candidates(photo.rgb, board, colour=colour, diameter_squares=diameter_squares)
+    candidates = _candidates(photo, board, tip)
+    base_candidates: tuple[Candidate, ...] = ()
+    if base is not None:
+        base_candidates = candidates if base == tip else _candidates(photo, board, base)
     return Observation(
-        path.name, "", width, height, photo.focal_px, board, candidates, _board_map(photo.gray, board)
+        path.name,
+        "",
+        width,
+        height,
+        photo.focal_px,
+        board,
+        candidates,
+        base_candidates,
+        _board_map(photo.gray, board),
     )
+
+
+def _candidates(photo: Photo, board: BoardView, look: MarkerLook) -> tuple[Candidate, ...]:
+    return find_candidates(photo.rgb, board, colour=look.colour, diameter_squares=look.diameter_squares)
 
 
 def _board_map(gray: FloatImage, board: BoardView) -> BoardMap:

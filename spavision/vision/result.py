@@ -30,6 +30,8 @@ class Reading:
         Radius of the marker's circle.
     rim_px : array, shape (n, 2)
         Edge points of the marker; NaN where a ray shows no edge; empty without a marker.
+    base_px : array, shape (2,), or None
+        Projection of the base marker's centre.
     corners_px : array, shape (n, 2)
         The board's corners.
     indices : int array, shape (n, 2)
@@ -50,6 +52,7 @@ class Reading:
     marker_mm: FloatArray | None
     radius_mm: float | None
     rim_px: FloatArray
+    base_px: FloatArray | None
     corners_px: FloatArray
     indices: IntArray
     residuals_px: FloatArray

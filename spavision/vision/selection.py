@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import FloatArray
+from .arrays import FloatArray, IntArray
 from .marker import Candidate
 
 COST_OF_MISSING = 7.0
 """A reading that costs more than this is worse than none."""
-
-USUAL_STEP_SQUARES = 6.0
-"""Motion between neighbouring photographs that costs one unit: 15 mm on 2.5 mm squares."""
-
-LARGEST_MOTION_COST = 2.0
-"""A jump of any length costs no more than this: pressures may be far apart."""
 
 COST_ON_BOARD = 4.0
 """Cost of a spot that the board's corners surround: the marker's carrier hides them."""
@@ -25,8 +20,38 @@ STATIC_SQUARES = 0.15
 """Motion within which a spot counts as fixed to the board."""
 
 
+@dataclass(frozen=True)
+class Motion:
+    """How a marker moves from photograph to photograph.
+
+    Parameters
+    ----------
+    usual_step_squares : float
+        Motion between neighbouring photographs that costs one unit.
+    largest_cost : float
+        A jump of any length costs no more than this.
+    may_rest : bool
+        Whether it may stay put on the board while other spots move.
+    """
+
+    usual_step_squares: float
+    largest_cost: float
+    may_rest: bool
+
+
+TIP_MOTION = Motion(usual_step_squares=6.0, largest_cost=2.0, may_rest=False)
+"""15 mm on 2.5 mm squares, and more where pressures are far apart."""
+
+BASE_MOTION = Motion(usual_step_squares=2.0, largest_cost=np.inf, may_rest=True)
+"""A slipping clamp: 5 mm on 2.5 mm squares, and never as far as the tip."""
+
+
 def select_markers(
-    candidates: Sequence[Sequence[Candidate]], places: Sequence[FloatArray], *, radius_squares: float | None
+    candidates: Sequence[Sequence[Candidate]],
+    places: Sequence[FloatArray],
+    *,
+    radius_squares: float | None,
+    motion: Motion = TIP_MOTION,
 ) -> list[int | None]:
     """Choose one candidate, or none, in every photograph, in order of pressure.
 
@@ -40,46 +65,42 @@ def select_markers(
         Their places in squares, in the reference photograph's lattice.
     radius_squares : float or None
         Expected radius; found from the candidates themselves when absent.
+    motion : Motion
+        How far the marker is expected to move.
     """
     expected = radius_squares if radius_squares is not None else _common_radius(candidates)
-    static = _static_cost(places)
-    best: list[list[float]] = []
-    back: list[list[tuple[int, int] | None]] = []
-    for now, photo in enumerate(candidates):
-        best.append([])
-        back.append([])
-        for k, candidate in enumerate(photo):
-            own = _look_cost(candidate, expected) + static[now][k]
-            total, origin = now * COST_OF_MISSING, None
-            for before in range(now):
-                for j in range(len(candidates[before])):
-                    gap = now - before
-                    motion = float(np.linalg.norm(places[now][k] - places[before][j])) / USUAL_STEP_SQUARES
-                    cost = (
-                        best[before][j]
-                        + (gap - 1) * COST_OF_MISSING
-                        + min(motion**2 / gap, LARGEST_MOTION_COST)
-                    )
-                    if cost < total:
-                        total, origin = cost, (before, j)
-            best[now].append(total + own)
-            back[now].append(origin)
-    return _trace(best, back)
+    fixed = [np.zeros(len(place)) for place in places] if motion.may_rest else _static_cost(places)
+    cost = np.zeros(0)
+    photo = np.zeros(0, dtype=np.intp)
+    before: list[int] = []
+    spots = np.concatenate([place.reshape(-1, 2) for place in places]) if places else np.zeros((0, 2))
+    for now, own in enumerate(candidates):
+        # A spot's path comes from one spot of any earlier photograph, or begins here.
+        arrival = []
+        for k, candidate in enumerate(own):
+            step = np.linalg.norm(spots[: len(cost)] - places[now][k], axis=1) / motion.usual_step_squares
+            gap = now - photo
+            total = cost + (gap - 1) * COST_OF_MISSING + np.minimum(step**2 / gap, motion.largest_cost)
+            origin = int(np.argmin(total)) if len(total) else -1
+            if origin < 0 or total[origin] >= now * COST_OF_MISSING:
+                origin = -1
+            before.append(origin)
+            way = now * COST_OF_MISSING if origin < 0 else float(total[origin])
+            arrival.append(way + _look_cost(candidate, expected) + fixed[now][k])
+        cost = np.append(cost, arrival)
+        photo = np.append(photo, np.full(len(own), now, dtype=np.intp))
+    return _trace(cost, photo, before, len(candidates))
 
 
-def _trace(best: list[list[float]], back: list[list[tuple[int, int] | None]]) -> list[int | None]:
-    n = len(best)
-    cheapest, state = n * COST_OF_MISSING, None
-    for now in range(n):
-        for k, cost in enumerate(best[now]):
-            total = cost + (n - 1 - now) * COST_OF_MISSING
-            if total < cheapest:
-                cheapest, state = total, (now, k)
+def _trace(cost: FloatArray, photo: IntArray, before: list[int], n: int) -> list[int | None]:
+    """Follow the cheapest path back from its last spot; return its spot in each photograph."""
     chosen: list[int | None] = [None] * n
-    while state is not None:
-        now, k = state
-        chosen[now] = k
-        state = back[now][k]
+    total = cost + (n - 1 - photo) * COST_OF_MISSING
+    spot = int(np.argmin(total)) if len(total) and total.min() < n * COST_OF_MISSING else -1
+    while spot >= 0:
+        now = int(photo[spot])
+        chosen[now] = spot - int(np.searchsorted(photo, now))
+        spot = before[spot]
     return chosen
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from spavision.errors import InputError
 
 from .camera import Camera
+from .photos import LARGEST_MEGAPIXELS
 
 
 @dataclass(frozen=True)
@@ -31,12 +32,21 @@ class TrackSettings:
         A colour's name or ``#rrggbb``.
     marker_diameter_mm : float or None
         Diameter of the marker; found from the photographs when absent.
+    base_marker_colour : str or None
+        Colour of a second marker, on the clamp or the actuator's fixed end and in the plane of the first,
+        whose motion is taken off; None where there is none.
+    base_marker_diameter_mm : float or None
+        Its diameter; the first marker's when absent.
     sigma_standoff_mm, sigma_distance_mm : float
         Standard uncertainty of the two lengths above.
     sigma_board_scale : float
         Relative standard uncertainty of the print's size.
     sigma_out_of_plane_mm : float
         Standard uncertainty of the marker's motion towards the camera between two photographs.
+    sigma_by_hand_px : float
+        Standard uncertainty of a pixel that a person gave, in each direction.
+    largest_megapixels : float
+        Larger photographs are not decoded.
     workers : int or None
         Photographs measured at a time; None for as many as there are processors.
     """
@@ -48,10 +58,14 @@ class TrackSettings:
     camera: Camera | None = None
     marker_colour: str = "red"
     marker_diameter_mm: float | None = None
+    base_marker_colour: str | None = None
+    base_marker_diameter_mm: float | None = None
     sigma_standoff_mm: float = 0.5
     sigma_distance_mm: float = 5.0
     sigma_board_scale: float = 0.0005
     sigma_out_of_plane_mm: float = 0.2
+    sigma_by_hand_px: float = 1.0
+    largest_megapixels: float = LARGEST_MEGAPIXELS
     workers: int | None = None
 
     def __post_init__(self) -> None:
@@ -83,3 +97,9 @@ class TrackSettings:
     def true_square_mm(self) -> float:
         """Side of a square as printed."""
         return self.square_mm * self.board_scale
+
+    @property
+    def base_diameter_mm(self) -> float | None:
+        """Diameter of the base marker: the marker's own unless another was given."""
+        given = self.base_marker_diameter_mm
+        return self.marker_diameter_mm if given is None else given

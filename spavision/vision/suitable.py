@@ -30,8 +30,15 @@ def set_aside_strangers(observations: list[Observation]) -> list[Observation]:
     ]
 
 
-def refuse_hopeless(observations: list[Observation]) -> None:
+def refuse_hopeless(observations: list[Observation], *, given_by_hand: bool) -> None:
     """Refuse a set in which nothing can be measured.
+
+    Parameters
+    ----------
+    observations : list of Observation
+        All photographs.
+    given_by_hand : bool
+        Whether a person gave the marker in some photograph, so that none need be found.
 
     Raises
     ------
@@ -47,7 +54,7 @@ def refuse_hopeless(observations: list[Observation]) -> None:
             "no checkerboard was found in any photograph; "
             "the board's squares must measure 7 px or more and be in focus"
         )
-    if not any(o.candidates for o in observations):
+    if not given_by_hand and not any(o.candidates for o in observations):
         raise InputError(
             "no marker was found in any photograph; expected a round spot of the marker's colour "
             "(--marker-colour, --marker-diameter-mm) near the tip"

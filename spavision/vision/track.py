@@ -6,24 +6,32 @@ import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
-from spavision.errors import InputError
 from spavision.tip_path import TipPath
 
 from .arrays import FloatArray
 from .colour import parse_colour
-from .displacement import Place, uncertainty_budget
+from .corrections import (
+    Corrections,
+    refuse_outside_pixels,
+    refuse_unknown_photos,
+    without_corrected_spots,
+)
+from .evidence import Evidence
 from .notes import correction_text, track_notes
-from .observe import Observation, observe
-from .places import find_places
-from .readings import reading, statuses
+from .observe import MarkerLook, Observation, observe
+from .places import Places, find_places
+from .readings import budget_of, displacements_mm, reading, statuses
 from .result import Track
 from .scale import CameraFit, fit_camera
 from .settings import TrackSettings
 from .stations import Stations, group_stations
 from .suitable import refuse_hopeless, set_aside_strangers
+
+NO_CORRECTIONS: Corrections = MappingProxyType({})
 
 
 def track(
@@ -31,6 +39,7 @@ def track(
     pressures_kPa: Sequence[float] | FloatArray,
     *,
     settings: TrackSettings,
+    corrections: Corrections = NO_CORRECTIONS,
     progress: Callable[[str], None] | None = None,
 ) -> Track:
     """Measure the tip's displacement in a series of photographs.
@@ -43,48 +52,55 @@ def track(
         Pressure in each.
     settings : TrackSettings
         What is known of the set-up.
+    corrections : mapping of str to Correction, optional
+        What a person says of single photographs, by file name.
     progress : callable, optional
         Called with a photograph's name after it has been measured.
 
     Raises
     ------
     InputError
-        If no photograph is readable, none shows a board, or none shows a marker.
+        If no photograph is readable, none shows a board, none shows a marker, or a correction does not fit.
     """
-    colour = parse_colour(settings.marker_colour)
+    refuse_unknown_photos(corrections, [path.name for path in paths])
     order = np.argsort(np.asarray(pressures_kPa, dtype=float), kind="stable")
     pressures = np.asarray(pressures_kPa, dtype=float)[order]
-    observations = _observe_all([paths[k] for k in order], colour, settings, progress)
+    observations = _observe_all([paths[k] for k in order], settings, progress)
+    refuse_outside_pixels(corrections, observations)
     observations = set_aside_strangers(observations)
-    refuse_hopeless(observations)
+    refuse_hopeless(observations, given_by_hand=any(c.pixel is not None for c in corrections.values()))
+    observations = without_corrected_spots(corrections, observations)
     origin = next(k for k, observation in enumerate(observations) if observation.board is not None)
     stations = group_stations(observations, origin)
     fit = _fit(observations, origin, stations, settings)
-    corrected = settings.standoff_mm is not None and fit.source != "none"
-    standoff = settings.standoff_mm if corrected and settings.standoff_mm is not None else 0.0
-    places, radius = find_places(observations, stations, fit, settings, standoff)
-    return _assemble(pressures, observations, stations, fit, places, radius, settings, standoff)
+    evidence = Evidence(observations, stations, fit, settings, corrections)
+    return _assemble(pressures, evidence, find_places(evidence))
 
 
 def _observe_all(
-    paths: list[Path],
-    colour: tuple[int, int, int],
-    settings: TrackSettings,
-    progress: Callable[[str], None] | None,
+    paths: list[Path], settings: TrackSettings, progress: Callable[[str], None] | None
 ) -> list[Observation]:
-    diameter = settings.marker_diameter_mm
-    squares = None if diameter is None else diameter / settings.true_square_mm
+    tip = _look(settings.marker_colour, settings.marker_diameter_mm, settings)
+    base = None
+    if settings.base_marker_colour is not None:
+        base = _look(settings.base_marker_colour, settings.base_diameter_mm, settings)
     workers = settings.workers or os.cpu_count() or 1
     observations = []
     # Nearly all the time is spent in OpenCV and NumPy, which let other threads run meanwhile.
     with ThreadPoolExecutor(max_workers=max(1, min(workers, len(paths)))) as pool:
         for observation in pool.map(
-            lambda path: observe(path, colour=colour, diameter_squares=squares), paths
+            lambda path: observe(path, tip=tip, base=base, largest_megapixels=settings.largest_megapixels),
+            paths,
         ):
             observations.append(observation)
             if progress is not None:
                 progress(observation.name)
     return observations
+
+
+def _look(colour: str, diameter_mm: float | None, settings: TrackSettings) -> MarkerLook:
+    squares = None if diameter_mm is None else diameter_mm / settings.true_square_mm
+    return MarkerLook(parse_colour(colour), squares)
 
 
 def _fit(
@@ -95,40 +111,20 @@ def _fit(
     return fit_camera(stations, settings, size, float(np.median(focals)) if focals else None)
 
 
-def _assemble(
-    pressures: FloatArray,
-    observations: list[Observation],
-    stations: Stations,
-    fit: CameraFit,
-    places: list[Place | None],
-    radius: float | None,
-    settings: TrackSettings,
-    standoff: float,
-) -> Track:
-    first = next((k for k, place in enumerate(places) if place is not None), None)
-    if first is None:
-        raise InputError("no marker was found in any photograph that is round enough to be measured")
-    reference = places[first]
-    assert reference is not None
-    status, reason = statuses(observations, stations, places)
-    budget = uncertainty_budget(places, reference, fit, settings, standoff)
-    sigma_ux = np.sqrt(np.sum([entry.sigma_ux_mm**2 for entry in budget], axis=0))
-    sigma_uy = np.sqrt(np.sum([entry.sigma_uy_mm**2 for entry in budget], axis=0))
-    centres = np.array([[np.nan] * 2 if p is None else p.circle.centre for p in places])
-    displacement = centres - reference.circle.centre
+def _assemble(pressures: FloatArray, evidence: Evidence, places: Places) -> Track:
+    fit, settings, standoff = evidence.fit, evidence.settings, evidence.standoff_mm
+    displacement = displacements_mm(places)
+    budget = budget_of(evidence, places)
+    status, reason = statuses(evidence, places)
     tip_path = TipPath(
         pressure_kPa=pressures,
         ux_mm=displacement[:, 0],
         uy_mm=displacement[:, 1],
-        sigma_ux_mm=sigma_ux,
-        sigma_uy_mm=sigma_uy,
-        photo=tuple(o.name for o in observations),
+        sigma_ux_mm=np.sqrt(np.sum([entry.sigma_ux_mm**2 for entry in budget], axis=0)),
+        sigma_uy_mm=np.sqrt(np.sum([entry.sigma_uy_mm**2 for entry in budget], axis=0)),
+        photo=tuple(o.name for o in evidence.observations),
         status=tuple(status),
         reason=tuple(reason),
-    )
-    readings = tuple(
-        reading(observation, place, tip_path, row, stations, fit, settings)
-        for row, (observation, place) in enumerate(zip(observations, places, strict=True))
     )
     factor = 1.0 - standoff / fit.distance_mm
     return Track(
@@ -141,8 +137,8 @@ def _assemble(
         parallax_factor=factor,
         correction=correction_text(fit, settings, factor),
         square_mm=settings.true_square_mm,
-        marker_diameter_mm=None if radius is None else 2.0 * radius,
-        readings=readings,
+        marker_diameter_mm=None if places.radius_mm is None else 2.0 * places.radius_mm,
+        readings=tuple(reading(evidence, places, tip_path, row) for row in range(len(pressures))),
         budget=budget,
-        notes=track_notes(observations, stations, places, first, fit, settings),
+        notes=track_notes(evidence, places),
     )

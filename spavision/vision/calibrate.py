@@ -150,11 +150,11 @@ def _common_size(found: list[_Found]) -> tuple[int, int]:
 
 
 def _refuse_too_few(found: list[_Found], used: list[_Found], settings: CalibrationSettings) -> None:
+    other = next((each for each in found if each.problem.startswith("shows ")), None)
+    if len(used) < FEWEST_PHOTOS and other is not None:
+        raise InputError(f"{other.name} {other.problem}; correct --corners or leave it off")
     if not used:
         named = settings.corners is not None
-        other = next((each for each in found if each.problem.startswith("shows ")), None)
-        if other is not None:
-            raise InputError(f"{other.name} {other.problem}; correct --corners or leave it off")
         raise InputError(
             "no board was found in any photograph; "
             + (

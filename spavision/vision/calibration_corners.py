@@ -98,6 +98,9 @@ def within_board(found: BoardCorners, corners: tuple[int, int]) -> BoardCorners 
     Print beside the board can look like a further row: the rectangle that holds most corners is kept, unless
     more than a tenth of the corners lie outside it.
     """
+    least = (1.0 - LARGEST_STRAY_SHARE) * len(found.indices)
+    if least > corners[0] * corners[1]:
+        return None
     best: IntArray = np.zeros(0, dtype=np.intp)
     low, high = found.indices.min(axis=0), found.indices.max(axis=0)
     for size in {corners, corners[::-1]}:
@@ -108,7 +111,7 @@ def within_board(found: BoardCorners, corners: tuple[int, int]) -> BoardCorners 
                 rows = np.flatnonzero(((place >= 0) & (place < size)).all(axis=1))
                 if len(rows) > len(best):
                     best = rows
-    if len(best) < (1.0 - LARGEST_STRAY_SHARE) * len(found.indices):
+    if len(best) < least:
         return None
     return BoardCorners(found.indices[best], found.pixels[best])
 

@@ -152,6 +152,12 @@ def test_opencvs_published_calibration_is_reproduced():
 
 
 @needs_real_photos
+def test_a_wrong_number_of_corners_is_told_though_a_few_photos_would_pass():
+    with pytest.raises(InputError, match=r"shows 9×6 corners, not 8×6; correct --corners"):
+        calibrate(find_photos(REAL), CalibrationSettings((8, 6), 25.0))
+
+
+@needs_real_photos
 def test_windows_scaled_to_the_squares_fit_real_photos_better():
     settings = CalibrationSettings(square_mm=25.0, model=LensModel(fix_aspect_ratio=True))
     found = calibrate(find_photos(REAL), settings)

@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 
-.PHONY: demo test lint types format bench wheel-check clean
+.PHONY: demo test lint types format bench bench-fe wheel-check clean
 
 demo: $(READY)
 	$(BIN)/spavision correlate --crimp 0.2 --output results/demo --force
@@ -32,6 +32,10 @@ wheel-check: $(READY)
 
 bench: $(READY)
 	$(BIN)/python benchmarks/run_all.py
+
+bench-fe: $(READY)
+	$(BIN)/python -m pip install --disable-pip-version-check --quiet --editable ".[fast,bench]"
+	$(BIN)/python benchmarks/run_all.py fe_
 
 $(READY): pyproject.toml constraints.txt
 	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'spavision needs Python 3.11 or newer; try make PYTHON=python3.12')"

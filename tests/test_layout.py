@@ -1,6 +1,7 @@
 """The layout that design and packaging rely on: which folder may import which."""
 
 import ast
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -50,3 +51,14 @@ def test_dependencies_run_one_way(folder):
     for path in modules_below(folder):
         wrong = [name for name in absolute_imports(path) if name.startswith(FORBIDDEN[folder])]
         assert not wrong, f"{path.relative_to(ROOT)} imports {wrong}"
+
+
+def test_every_package_is_in_the_wheel():
+    listed = set(
+        tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]["packages"]
+    )
+    installed_as = {"spavision": "spavision", "model": "spavision.model", "correlate": "spavision.correlate"}
+    for folder, name in installed_as.items():
+        for marker in sorted((ROOT / folder).rglob("__init__.py")):
+            parts = marker.parent.relative_to(ROOT / folder).parts
+            assert ".".join((name, *parts)) in listed

@@ -12,6 +12,7 @@ from .alignment import Alignment, best_scale, best_shift
 from .discrepancy import Discrepancy
 from .modes import Modes, find_modes
 from .path_distance import discrete_frechet_mm
+from .validation import ModelUncertainty, Validation, validate
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,8 @@ class Summary:
         Distance between the two paths in the x-y plane, whatever the pressures.
     shift, scale : Alignment or None
         Best pressure correction of each kind; None with too few readings.
+    validation_x, validation_y : Validation
+        Each component's error against its validation uncertainty.
     """
 
     discrepancy: Discrepancy
@@ -34,12 +37,15 @@ class Summary:
     frechet_mm: float
     shift: Alignment | None
     scale: Alignment | None
+    validation_x: Validation
+    validation_y: Validation
 
     def sentences(self) -> list[str]:
         """Say the main findings, one sentence each."""
         return [
             self._largest(),
             self._rmse(),
+            self._verdict(),
             _mode_sentence("measured", self.measured_modes),
             _mode_sentence("modelled", self.modelled_modes),
             *self._alignment(),
@@ -61,6 +67,19 @@ class Summary:
             share = f" ({component.nrmse:.0%} of the measured range)" if np.isfinite(component.nrmse) else ""
             parts.append(f"{component.rmse_mm:.1f} mm in {name}{share}")
         return f"Root mean square error: {' and '.join(parts)}."
+
+    def _verdict(self) -> str:
+        common = self.discrepancy.is_common
+        counts = [
+            f"{int(np.sum(validation.is_significant & common))} in {name}"
+            for name, validation in (("x", self.validation_x), ("y", self.validation_y))
+        ]
+        left_out = self.validation_x.left_out
+        caveat = f" ({' and '.join(left_out)} not estimated, so it is a lower bound)" if left_out else ""
+        return (
+            f"The error exceeds twice the validation uncertainty{caveat} at {' and '.join(counts)} "
+            f"of {int(common.sum())} pressures: there model and measurement differ significantly (V&V 20)."
+        )
 
     def _alignment(self) -> list[str]:
         found = [alignment for alignment in (self.shift, self.scale) if alignment is not None]
@@ -87,8 +106,16 @@ class Summary:
         return [f"No comparison at {', '.join(gaps)} kPa: one side has no reading."] if gaps else []
 
 
-def summarise(discrepancy: Discrepancy) -> Summary:
-    """Compute every figure of the summary from a comparison."""
+def summarise(discrepancy: Discrepancy, model: ModelUncertainty | None = None) -> Summary:
+    """Compute every figure of the summary from a comparison.
+
+    Parameters
+    ----------
+    discrepancy : Discrepancy
+    model : ModelUncertainty, optional
+        What is known of the model's own uncertainty.
+    """
+    validation_x, validation_y = validate(discrepancy, model or ModelUncertainty())
     measured, modelled = discrepancy.measured, discrepancy.modelled
     return Summary(
         discrepancy=discrepancy,
@@ -97,6 +124,8 @@ def summarise(discrepancy: Discrepancy) -> Summary:
         frechet_mm=_frechet_over_common(discrepancy),
         shift=best_shift(measured, modelled),
         scale=best_scale(measured, modelled),
+        validation_x=validation_x,
+        validation_y=validation_y,
     )
 
 

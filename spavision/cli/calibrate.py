@@ -29,11 +29,12 @@ if TYPE_CHECKING:
 @click.option("--zero-k3", is_flag=True, help="Keep k3 = 0.")
 @click.option(
     "--finder",
-    type=click.Choice(["lattice", "opencv"]),
-    default="lattice",
+    type=click.Choice(["auto", "lattice", "opencv"]),
+    default="auto",
     show_default=True,
     help="How corners are found: lattice, windows scaled to the squares, boards partly visible too; opencv, "
-    "as OpenCV's calibration sample with its 11 px window, for comparison with calibrations made by it.",
+    "whole boards as in OpenCV's calibration sample with its 11 px window, comparable with calibrations made "
+    "by it; auto, opencv where --corners names a sparse board and the photo shows all of it, else lattice.",
 )
 @results_options
 def calibrate(photos: Path, **given: Any) -> None:

@@ -14,6 +14,7 @@ import numpy as np
 from spavision.errors import InputError
 
 from .adjustment import View
+from .arrays import FloatImage
 from .bundle import PARAMETERS, Bundle, adjust_bundle
 from .calibration import Calibration, CalibrationPhoto, CalibrationSettings
 from .calibration_corners import BoardCorners, lattice_corners, opencv_corners, within_board
@@ -23,6 +24,9 @@ from .photos import read_photo
 FEWEST_PHOTOS = 3
 GOOD_NUMBER_OF_PHOTOS = 8
 FEWEST_CORNERS = 8
+MOST_OPENCV_CORNERS = 500
+"""OpenCV's detector is slow on denser boards and rarely sees them whole."""
+
 WORSE_THAN_MEDIAN = 3.0
 LARGEST_FOCAL_SIGMA = 0.01
 
@@ -106,10 +110,7 @@ def _search(path: Path, settings: CalibrationSettings) -> _Found:
     except InputError as error:
         return _Found(path.name, None, None, str(error))
     size = (gray.shape[1], gray.shape[0])
-    if settings.finder == "opencv" and settings.corners is not None:
-        corners = opencv_corners(gray, settings.corners)
-    else:
-        corners = lattice_corners(gray, settings.corners)
+    corners = _find_corners(gray, settings)
     if corners is None:
         return _Found(path.name, size, None, "no board found")
     if settings.corners is not None:
@@ -120,6 +121,20 @@ def _search(path: Path, settings: CalibrationSettings) -> _Found:
     if len(corners.indices) < FEWEST_CORNERS:
         return _Found(path.name, size, None, f"only {len(corners.indices)} corners found")
     return _Found(path.name, size, corners)
+
+
+def _find_corners(gray: FloatImage, settings: CalibrationSettings) -> BoardCorners | None:
+    asked = settings.corners
+    if settings.finder == "opencv" and asked is not None:
+        return opencv_corners(gray, asked)
+    found = lattice_corners(gray, asked)
+    if settings.finder == "lattice" or asked is None or asked[0] * asked[1] > MOST_OPENCV_CORNERS:
+        return found
+    # OpenCV's detector sees a smaller board in a larger one: the lattice says whether the number is right.
+    if found is not None and within_board(found, asked) is None:
+        return found
+    whole = opencv_corners(gray, asked)
+    return found if whole is None else whole
 
 
 def _without_copies(found: list[_Found]) -> list[_Found]:

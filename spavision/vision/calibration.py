@@ -14,7 +14,7 @@ from .calibration_corners import BoardCorners
 from .camera import Camera, Pose
 from .coverage import Coverage
 
-FINDERS = ("lattice", "opencv")
+FINDERS = ("auto", "lattice", "opencv")
 
 
 @dataclass(frozen=True)
@@ -29,14 +29,15 @@ class CalibrationSettings:
         Side of a square: scales the distances, leaves the intrinsic parameters alone.
     finder : str
         ``lattice``: the tracker's own, for whole or partly visible boards, sub-pixel window scaled to the
-        squares. ``opencv``: OpenCV's calibration sample to the letter, for comparison; needs ``corners``.
+        squares. ``opencv``: OpenCV's calibration sample to the letter; needs ``corners``. ``auto``:
+        ``opencv`` where ``corners`` names a sparse board and the photograph shows all of it, else ``lattice``.
     model : LensModel
         Which parameters are free.
     """
 
     corners: tuple[int, int] | None = None
     square_mm: float = 2.5
-    finder: str = "lattice"
+    finder: str = "auto"
     model: LensModel = field(default_factory=LensModel)
 
     def __post_init__(self) -> None:

@@ -184,7 +184,7 @@ def test_a_camera_of_another_size_is_refused_by_the_tracker(spavision, photos, t
 @pytest.mark.skipif(not REAL.is_dir(), reason="needs ../shared/data/photos/opencv_left")
 def test_real_photos_from_the_command_line(spavision):
     # left_intrinsics.yml beside the photos: fx 535.916, RMS 0.3926 px.
-    options = ("--corners", "9x6", "--square-mm", "25", "--fix-aspect-ratio", "--finder", "opencv", "--json")
+    options = ("--corners", "9x6", "--square-mm", "25", "--fix-aspect-ratio", "--json")
     outcome = spavision("calibrate", REAL, *options)
     assert outcome.code == 0, outcome.err
     result = json.loads(outcome.out)

@@ -30,7 +30,7 @@ class CalibrationSettings:
     finder : str
         ``lattice``: the tracker's own, for whole or partly visible boards, sub-pixel window scaled to the
         squares. ``opencv``: OpenCV's calibration sample to the letter; needs ``corners``. ``auto``:
-        ``opencv`` where ``corners`` names a sparse board and the photograph shows all of it, else ``lattice``.
+        ``opencv`` where ``corners`` names a sparse board and the photo shows all of it, else ``lattice``.
     model : LensModel
         Which parameters are free.
     """

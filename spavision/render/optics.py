@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +17,7 @@ DISC_SAMPLES = 9
 
 def through_lens(light: FloatImage, optics: OpticsSettings) -> FloatImage:
     """Return the light on the sensor, shape (height, width, 3)."""
-    image = light
+    image: NDArray[Any] = light
     if optics.defocus_px > 0:
         image = cv2.filter2D(image, -1, defocus_disc(optics.defocus_px), borderType=cv2.BORDER_REPLICATE)
     if optics.blur_px > 0:

@@ -14,7 +14,7 @@ from PIL.TiffImagePlugin import IFDRational
 from .camera import focal_px
 from .settings import ImageSettings, RenderSettings
 
-Pixels = NDArray[np.uint8] | NDArray[np.uint16]
+Pixels = NDArray[np.integer]
 
 ENDINGS = {"jpeg": "jpg", "png": "png", "tiff": "tif"}
 CHROMA = {"4:4:4": 0, "4:2:2": 1, "4:2:0": 2}

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .body import CentreLine, bend_to
+from .build import build_scene
 from .camera import Camera, camera_for_photo
 from .optics import through_lens
 from .raycast import cast
-from .scene import FaceState, build_scene
+from .scene import FaceState
 from .sensor import encode, expose
 from .settings import RenderSettings, check_settings
 from .trajectory import Trajectory

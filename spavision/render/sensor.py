@@ -17,26 +17,20 @@ CHANNEL_SENSITIVITY = np.array([0.62, 1.0, 0.72])
 BAYER = ((0, 1), (1, 2))
 """Channel of each site of the 2×2 pattern (RGGB)."""
 
-GREEN_CROSS = np.array([[0, 1, 0], [1, 4, 1], [0, 1, 0]], dtype=np.float32) / 4
-OTHER_BILINEAR = np.array([[1, 2, 1], [2, 4, 2], [1, 2, 1]], dtype=np.float32) / 4
+GREEN_CROSS = np.array([[0, 1, 0], [1, 4, 1], [0, 1, 0]]) / 4
+OTHER_BILINEAR = np.array([[1, 2, 1], [2, 4, 2], [1, 2, 1]]) / 4
 GREEN_AT_OTHER = (
-    np.array(
-        [[0, 0, -1, 0, 0], [0, 0, 2, 0, 0], [-1, 2, 4, 2, -1], [0, 0, 2, 0, 0], [0, 0, -1, 0, 0]],
-        dtype=np.float32,
-    )
-    / 8
+    np.array([[0, 0, -1, 0, 0], [0, 0, 2, 0, 0], [-1, 2, 4, 2, -1], [0, 0, 2, 0, 0], [0, 0, -1, 0, 0]]) / 8
 )
 OTHER_ALONG_ROW = (
     np.array(
         [[0, 0, 0.5, 0, 0], [0, -1, 0, -1, 0], [-1, 4, 5, 4, -1], [0, -1, 0, -1, 0], [0, 0, 0.5, 0, 0]],
-        dtype=np.float32,
     )
     / 8
 )
 OTHER_DIAGONAL = (
     np.array(
         [[0, 0, -1.5, 0, 0], [0, 2, 0, 2, 0], [-1.5, 0, 6, 0, -1.5], [0, 2, 0, 2, 0], [0, 0, -1.5, 0, 0]],
-        dtype=np.float32,
     )
     / 8
 )
@@ -93,7 +87,7 @@ def demosaic(mosaic: FloatImage, method: str) -> FloatImage:
     return _bilinear(mosaic) if method == "bilinear" else _malvar(mosaic)
 
 
-def _filter(image: FloatImage, taps: FloatImage) -> FloatImage:
+def _filter(image: FloatImage, taps: NDArray[np.floating]) -> FloatImage:
     return np.asarray(cv2.filter2D(image, -1, taps, borderType=cv2.BORDER_REFLECT_101))
 
 

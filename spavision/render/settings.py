@@ -3,36 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from spavision.errors import InputError
 
-from .colours import NAMED_COLOURS, parse_colour
-
-
-def setting(
-    default: Any,
-    meaning: str,
-    *,
-    unit: str = "",
-    low: float = -math.inf,
-    high: float = math.inf,
-    choices: tuple[Any, ...] = (),
-    colour: bool = False,
-) -> Any:
-    """Return a dataclass field that knows its unit, its meaning and its range."""
-    metadata = {
-        "meaning": meaning,
-        "unit": unit,
-        "low": low,
-        "high": high,
-        "choices": choices,
-        "colour": colour,
-    }
-    return dataclasses.field(default=default, metadata=metadata)
+from .setting import check_value, setting
 
 
 @dataclass(frozen=True)
@@ -286,21 +263,3 @@ def walk(settings: RenderSettings) -> Iterator[tuple[str, Any, dataclasses.Field
                 yield f"{field.name}.{inner.name}", getattr(value, inner.name), inner
         else:
             yield field.name, value, field
-
-
-def check_value(name: str, value: Any, field: dataclasses.Field[Any]) -> None:
-    """Raise `InputError` if one value has the wrong type or lies out of its range."""
-    rule = field.metadata
-    expected: type = {"int": int, "float": float, "bool": bool, "str": str}[str(field.type)]
-    if expected is float and isinstance(value, int) and not isinstance(value, bool):
-        value = float(value)
-    if type(value) is not expected:
-        raise InputError(f"{name}: expected {expected.__name__}, got {value!r}")
-    if rule["choices"] and value not in rule["choices"]:
-        raise InputError(f"{name}: {value!r} is none of {', '.join(map(str, rule['choices']))}")
-    if expected in (int, float) and not rule["low"] <= value <= rule["high"]:
-        raise InputError(
-            f"{name}: {value} is not between {rule['low']:g} and {rule['high']:g} {rule['unit']}"
-        )
-    if rule["colour"] and parse_colour(value) is None:
-        raise InputError(f"{name}: {value!r} is neither #rrggbb nor one of {', '.join(NAMED_COLOURS)}")

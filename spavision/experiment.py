@@ -14,6 +14,7 @@ from spavision.tables import read_toml
 FILE_NAME = "experiment.toml"
 
 PositiveLength = Annotated[float, Field(gt=0, le=1000, allow_inf_nan=False)]
+Pressure = Annotated[float, Field(ge=0, le=10000, allow_inf_nan=False)]
 CrimpRatio = Annotated[float, Field(ge=0.1, le=0.4, allow_inf_nan=False)]
 
 
@@ -45,28 +46,42 @@ class CameraSection(_Section):
 
 
 class MarkerSection(_Section):
-    """The coloured dot near the tip."""
+    """The coloured dot near the tip, and a second one at the fixed end where there is one."""
 
     colour: str = Field("red", description="named colour, or #rrggbb sampled from a photo")
     diameter_mm: float | None = Field(None, gt=0.2, le=50, description="diameter of the dot, mm")
+    base_colour: str | None = Field(
+        None, description="colour of a second dot at the fixed end, whose motion is taken off"
+    )
+    base_diameter_mm: float | None = Field(
+        None, gt=0.2, le=50, description="its diameter, mm; the first dot's unless given"
+    )
 
 
 class PhotosSection(_Section):
     """How the pressure of each photo is known."""
 
-    pressures: Literal["names", "table", "step"] = Field(
-        "names", description="pressure from file names, a CSV or a step"
+    pressures: Literal["names", "table", "list", "step"] = Field(
+        "names", description="pressure from file names, a CSV, a list or a step"
     )
-    table: str | None = Field(None, description="CSV with the columns photo, pressure_kPa")
+    table: str | None = Field(
+        None, description="CSV with the columns photo, pressure_kPa; for a video time_s, pressure_kPa"
+    )
+    list_kPa: tuple[Pressure, ...] | None = Field(
+        None, min_length=1, description="pressures of the photos in order, kPa"
+    )
     step_kPa: float | None = Field(
         None, gt=0, le=500, description="pressure increment between photos in order, kPa"
+    )
+    largest_megapixels: float = Field(
+        200.0, gt=0, le=10000, description="larger photos are not decoded, megapixels"
     )
 
     @model_validator(mode="after")
     def _source_is_complete(self) -> PhotosSection:
-        needed = {"table": self.table, "step": self.step_kPa}
+        needed = {"table": self.table, "list": self.list_kPa, "step": self.step_kPa}
         if self.pressures in needed and needed[self.pressures] is None:
-            key = {"table": "table", "step": "step_kPa"}[self.pressures]
+            key = {"table": "table", "list": "list_kPa", "step": "step_kPa"}[self.pressures]
             raise ValueError(f'pressures = "{self.pressures}" needs the key {key}')
         return self
 

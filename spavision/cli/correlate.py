@@ -38,7 +38,7 @@ def correlate(photos: Path | None, measured: Path | None, pressure_unit: str, **
     source = choose_source(photos, measured, given, pressure_unit=pressure_unit)
     folder = given["output"] or output.default_output("correlate", source.name)
     results = ResultsFolder(folder, force=given["force"])
-    side = take_measurement(source, quiet=given["quiet"])
+    side = take_measurement(source, results=results, quiet=given["quiet"])
     comparison = compare_with_model(side, quiet=given["quiet"])
     write_comparison(results, comparison)
     _report(comparison, results.path, as_json=given["as_json"], quiet=given["quiet"])

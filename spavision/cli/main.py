@@ -55,7 +55,10 @@ def main(debug: bool) -> None:
 
 
 def run() -> NoReturn:
-    """Run the command line; exit 2 on bad input, 1 on an internal error, 130 when interrupted."""
+    """Run the command line.
+
+    It exits with 2 on bad input, 3 where ``--strict`` is not met, 1 on an internal error, 130 when interrupted.
+    """
     debug = "--debug" in sys.argv
     arguments = [argument for argument in sys.argv[1:] if argument != "--debug"]
     warnings.showwarning = _show_warning

@@ -1,4 +1,4 @@
-"""From a folder of photos and an experiment to a track, and from a track to files."""
+"""From photos and an experiment to a track, and from a track to files."""
 
 from __future__ import annotations
 
@@ -8,19 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from spavision.errors import InputError
 from spavision.experiment import Experiment
-from spavision.results import ResultsFolder, sha256
-from spavision.tables import numbers, read_columns
+from spavision.results import ResultsFolder
 from spavision.tip_path import FloatArray
 
 from .output import csv_text, number
+from .photo_series import PhotoSeries, photo_series
 from .pictures import jpeg
 from .progress import progress_bar
 
 if TYPE_CHECKING:
     from spavision.correlate.report import Picture
-    from spavision.vision.settings import TrackSettings
     from spavision.vision.track import Track
 
 REPORT_PHOTO_PX = 900
@@ -29,17 +27,21 @@ REPORT_PHOTO_PX = 900
 
 @dataclass(frozen=True)
 class Measurement:
-    """A track with the photos and the set-up that it came from."""
+    """A track with the photos that it came from."""
 
     track: Track
-    photos: dict[str, Path]
-    experiment: Experiment
+    series: PhotoSeries
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What the user should know of photos and track, a sentence each."""
+        return (*self.series.notes, *self.track.notes)
 
     def record(self) -> dict[str, Any]:
         """Return what ``run.json`` keeps of the measurement."""
         track = self.track
         return {
-            "inputs": sha256(self.photos.values()),
+            "inputs": self.series.inputs,
             "camera_distance_mm": track.distance_mm,
             "camera_distance_source": track.distance_source,
             "standoff_mm": track.standoff_mm,
@@ -55,7 +57,7 @@ class Measurement:
                 }
                 for entry in track.budget
             ],
-            "notes": list(track.notes),
+            "notes": list(self.notes),
         }
 
     def budget_rows(self) -> list[list[str]]:
@@ -81,30 +83,33 @@ class DrawnPhotos:
     montage: Picture
 
 
-def measure(folder: Path, experiment: Experiment, *, quiet: bool) -> Measurement:
-    """Track the photos of a folder.
+def measure(place: Path, experiment: Experiment, *, results: ResultsFolder, quiet: bool) -> Measurement:
+    """Track the photos of a folder, or the frames of a video, which are written to ``results``.
 
     Raises
     ------
     InputError
         If there is no photo, no readable photo, no board, no marker, or no way to tell the pressures.
     """
-    from spavision.vision.photos import find_photos
     from spavision.vision.track import track
 
-    photos = find_photos(folder)
-    pressure_kPa = _pressures([path.name for path in photos], folder, experiment)
-    settings = _track_settings(folder, experiment)
+    series = photo_series(place, experiment, results=results)
     done = 0
-    with progress_bar("photos", total=len(photos), quiet=quiet) as advance:
+    with progress_bar("photos", total=len(series.photos), quiet=quiet) as advance:
 
         def progress(name: str) -> None:
             nonlocal done
             done += 1
             advance(name, done)
 
-        found = track(photos, pressure_kPa, settings=settings, progress=progress)
-    return Measurement(found, {path.name: path for path in photos}, experiment)
+        found = track(
+            series.photos,
+            series.pressure_kPa,
+            settings=series.settings,
+            corrections=series.corrections,
+            progress=progress,
+        )
+    return Measurement(found, series)
 
 
 def write_measurement(results: ResultsFolder, measurement: Measurement) -> DrawnPhotos:
@@ -114,12 +119,14 @@ def write_measurement(results: ResultsFolder, measurement: Measurement) -> Drawn
     from spavision.vision.photos import read_photo
 
     track = measurement.track
+    paths = {path.name: path for path in measurement.series.photos}
+    largest = measurement.series.settings.largest_megapixels
     results.write_text("track.csv", csv_text(track.tip_path.table()))
     tiles, small = [], {}
     for row, reading in enumerate(track.readings):
         if not len(reading.corners_px):
             continue
-        photo = read_photo(measurement.photos[reading.photo]).rgb
+        photo = read_photo(paths[reading.photo], largest_megapixels=largest).rgb
         drawn = overlay(photo, track, row)
         results.write_bytes(f"overlays/{Path(reading.photo).stem}.jpg", jpeg(drawn))
         tiles.append(montage_tile(photo, track, row))
@@ -133,48 +140,6 @@ def write_measurement(results: ResultsFolder, measurement: Measurement) -> Drawn
     return DrawnPhotos(
         small, Picture(sheet, "image/jpeg", "The photos in order of pressure, the tip marked.")
     )
-
-
-def _pressures(names: list[str], folder: Path, experiment: Experiment) -> FloatArray:
-    from spavision.vision.pressures import pressures_from_names, pressures_from_step, pressures_from_table
-
-    how = experiment.photos
-    if how.pressures == "step" and how.step_kPa is not None:
-        return pressures_from_step(names, how.step_kPa)
-    if how.pressures == "table" and how.table is not None:
-        import pandas as pd
-
-        table = _beside(folder, how.table)
-        columns = read_columns(table)
-        for column in ("photo", "pressure_kPa"):
-            if column not in columns:
-                raise InputError(f"{table}: column {column} is missing (it has {', '.join(columns)}); add it")
-        pressure_kPa = numbers(columns, "pressure_kPa", table)
-        frame = pd.DataFrame({"photo": columns["photo"], "pressure_kPa": pressure_kPa})
-        return pressures_from_table(frame, names)
-    return pressures_from_names(names)
-
-
-def _track_settings(folder: Path, experiment: Experiment) -> TrackSettings:
-    from spavision.vision.camera_file import read_camera
-    from spavision.vision.settings import TrackSettings
-
-    file = experiment.camera.file
-    return TrackSettings(
-        square_mm=experiment.board.square_mm,
-        board_scale=experiment.board.scale,
-        standoff_mm=experiment.camera.standoff_mm,
-        distance_mm=experiment.camera.distance_mm,
-        camera=None if file is None else read_camera(_beside(folder, file)).camera,
-        marker_colour=experiment.marker.colour,
-        marker_diameter_mm=experiment.marker.diameter_mm,
-    )
-
-
-def _beside(folder: Path, name: str) -> Path:
-    """Return a file named in an option or beside the photos; the working directory comes first."""
-    path = Path(name)
-    return path if path.is_file() or path.is_absolute() else folder / path
 
 
 def _largest(sigma_mm: FloatArray) -> float:

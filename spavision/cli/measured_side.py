@@ -10,6 +10,7 @@ import numpy as np
 
 from spavision.errors import InputError
 from spavision.experiment import Experiment
+from spavision.results import ResultsFolder, sha256
 from spavision.tip_path import FloatArray, TipPath
 
 from .options import MODEL_OPTIONS, PHOTO_OPTIONS, experiment_for
@@ -48,7 +49,7 @@ class MeasuredSide:
     @property
     def notes(self) -> tuple[str, ...]:
         """What the reader must know about the measurement."""
-        tracked = tuple(self.measurement.track.notes) if self.measurement is not None else ()
+        tracked = self.measurement.notes if self.measurement is not None else ()
         return self.source.notes + tracked
 
     @property
@@ -116,7 +117,7 @@ def _sample_source(given: dict[str, Any], options: dict[str, tuple[str, str]]) -
     )
 
 
-def take_measurement(source: Source, *, quiet: bool) -> MeasuredSide:
+def take_measurement(source: Source, *, results: ResultsFolder, quiet: bool) -> MeasuredSide:
     """Track the photos, or read the table.
 
     Raises
@@ -124,13 +125,12 @@ def take_measurement(source: Source, *, quiet: bool) -> MeasuredSide:
     InputError
         If that fails, or if no reading is left to compare.
     """
-    from spavision.results import sha256
     from spavision.tables import PRESSURE_UNITS_kPa, read_tip_path
 
     from .measure import measure
 
     if source.photos is not None:
-        measurement = measure(source.photos, source.experiment, quiet=quiet)
+        measurement = measure(source.photos, source.experiment, results=results, quiet=quiet)
         return MeasuredSide(measurement.track.tip_path, source, measurement, {"track": measurement.record()})
     assert source.table is not None
     if source.pressure_unit not in PRESSURE_UNITS_kPa:

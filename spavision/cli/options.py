@@ -24,10 +24,17 @@ PHOTO_OPTIONS = {
     "camera": ("camera", "file"),
     "marker_colour": ("marker", "colour"),
     "marker_diameter_mm": ("marker", "diameter_mm"),
+    "base_marker_colour": ("marker", "base_colour"),
+    "base_marker_diameter_mm": ("marker", "base_diameter_mm"),
     "pressures": ("photos", "table"),
+    "pressures_kpa": ("photos", "list_kPa"),
     "pressure_step_kpa": ("photos", "step_kPa"),
+    "largest_megapixels": ("photos", "largest_megapixels"),
 }
 """Option name to section and key of the experiment file."""
+
+PRESSURE_OPTIONS = {"pressures": "table", "pressures_kpa": "list", "pressure_step_kpa": "step"}
+"""Option name to the way of knowing the pressures that it stands for."""
 
 MODEL_OPTIONS = {"crimp": ("actuator", "crimp_ratio"), "mesh": ("model", "mesh")}
 
@@ -63,10 +70,26 @@ def experiment_option(command: Command) -> Command:
 def photo_options(command: Command) -> Command:
     """Add the options that describe the photographs and the set-up."""
     for option in (
+        click.option("--largest-megapixels", type=float, help="Refuse larger photos [default: 200]."),
         click.option(
-            "--pressure-step-kpa", type=float, help="Photos in natural order, one every so many kPa from 0."
+            "--pressure-step-kpa",
+            type=float,
+            help="Photos in natural order, one every so many kPa from 0; refused where the numbering skips.",
         ),
-        click.option("--pressures", type=str, help="CSV with the columns photo, pressure_kPa."),
+        click.option(
+            "--pressures-kpa",
+            type=str,
+            help="Photos in natural order: from:to:step or a list; refused unless it fits their number.",
+        ),
+        click.option(
+            "--pressures", type=str, help="CSV with photo, pressure_kPa; for a video time_s, pressure_kPa."
+        ),
+        click.option("--base-marker-diameter-mm", type=float, help="Its diameter [default: the marker's]."),
+        click.option(
+            "--base-marker-colour",
+            type=str,
+            help="Colour of a second marker at the fixed end, whose motion is taken off.",
+        ),
         click.option("--marker-diameter-mm", type=float, help="Diameter of the marker."),
         click.option("--marker-colour", type=str, help="Named colour, or #rrggbb sampled from a photo."),
         click.option("--camera", type=str, help="camera.toml of spavision calibrate."),
@@ -99,7 +122,7 @@ def experiment_for(
     Parameters
     ----------
     photos : Path or None
-        Folder beside whose photos the file is looked for.
+        Folder, or video, beside whose photos the file is looked for.
     named : Path or None
         File asked for by ``--experiment``.
     given : dict
@@ -115,17 +138,26 @@ def experiment_for(
     experiment = Experiment()
     if named is not None:
         experiment = read_experiment(named)
-    elif photos is not None and (photos / FILE_NAME).is_file():
-        experiment = read_experiment(photos / FILE_NAME)
+    elif photos is not None and (_home(photos) / FILE_NAME).is_file():
+        experiment = read_experiment(_home(photos) / FILE_NAME)
     overlay: dict[str, dict[str, Any]] = {}
     for option, (section, key) in names.items():
         if given.get(option) is not None:
             overlay.setdefault(section, {})[key] = given[option]
-    if given.get("pressures") is not None:
-        overlay["photos"]["pressures"] = "table"
-    elif given.get("pressure_step_kpa") is not None:
-        overlay["photos"]["pressures"] = "step"
+    ways = [option for option in PRESSURE_OPTIONS if given.get(option) is not None and option in names]
+    if len(ways) > 1:
+        first, second = (f"--{option.replace('_', '-')}" for option in ways[:2])
+        raise InputError(f"{first} and {second} both tell the pressures; give one of them")
+    if ways:
+        overlay["photos"]["pressures"] = PRESSURE_OPTIONS[ways[0]]
+    if ways == ["pressures_kpa"]:
+        overlay["photos"]["list_kPa"] = parse_pressures(given["pressures_kpa"]).tolist()
     return experiment.with_options(overlay)
+
+
+def _home(photos: Path) -> Path:
+    """Return the folder of the photos, or the one that a video lies in."""
+    return photos.parent if photos.is_file() else photos
 
 
 def parse_pressures(text: str) -> FloatArray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import click
 
@@ -12,17 +12,26 @@ from .options import PHOTO_OPTIONS, experiment_option, photo_options, results_op
 if TYPE_CHECKING:
     from .measure import Measurement
 
+NOT_ALL_OK = 3
+"""Exit code of ``--strict`` where a reading is not ``ok``; the results are written all the same."""
+
 
 @click.command()
 @click.argument("photos", type=click.Path(path_type=Path))
+@click.option(
+    "--strict", is_flag=True, help=f"Exit with code {NOT_ALL_OK} after the work unless every photo is ok."
+)
 @photo_options
 @experiment_option
 @results_options
 def track(photos: Path, **given: Any) -> None:
-    """Measure the displacement of the tip in PHOTOS, a folder of photographs.
+    """Measure the displacement of the tip in PHOTOS, a folder of photographs or a video.
 
     Reads experiment.toml beside the photos where there is one; options go before it. Writes track.csv, one
     overlay picture a photo and a montage of all photos with the tip marked.
+
+    What corrections.csv beside the photos says goes before what is found in them: its columns are photo, and
+    x_px and y_px of the marker or yes under reject, and a note.
     """
     from spavision.results import ResultsFolder
 
@@ -33,12 +42,35 @@ def track(photos: Path, **given: Any) -> None:
     experiment = experiment_for(photos, given["experiment"], given, PHOTO_OPTIONS)
     name = photos.resolve().name
     results = ResultsFolder(given["output"] or output.default_output("track", name), force=given["force"])
-    measurement = measure(photos, experiment, quiet=given["quiet"])
+    measurement = measure(photos, experiment, results=results, quiet=given["quiet"])
     write_measurement(results, measurement)
     results.write_record(
         {"command": "track", "experiment": experiment.model_dump(), "track": measurement.record()}
     )
     _report(measurement, results.path, as_json=given["as_json"], quiet=given["quiet"])
+    if given["strict"]:
+        _refuse_unless_all_ok(measurement)
+
+
+def _refuse_unless_all_ok(measurement: Measurement) -> None:
+    path = measurement.track.tip_path
+    rest = [
+        f"{name} ({status})" for name, status in zip(path.photo, path.status, strict=True) if status != "ok"
+    ]
+    if rest:
+        raise _NotAllOk(
+            f"--strict: {len(rest)} of {len(path)} photos are not ok: {', '.join(rest)}; "
+            "mend or remove them, or give their marker in corrections.csv"
+        )
+
+
+class _NotAllOk(click.ClickException):
+    """The work is done, and not every reading is ``ok``."""
+
+    exit_code = NOT_ALL_OK
+
+    def show(self, file: IO[Any] | None = None) -> None:  # noqa: ARG002
+        click.echo(f"spavision: {self.message}", err=True)
 
 
 def _report(measurement: Measurement, folder: Path, *, as_json: bool, quiet: bool) -> None:
@@ -77,5 +109,5 @@ def _report(measurement: Measurement, folder: Path, *, as_json: bool, quiet: boo
         ]
         header = ["photo", "pressure kPa", "x mm", "σ x mm", "y mm", "σ y mm", "remark"]
         output.print_table("Measured tip path", header, rows)
-        output.print_lines(measurement.track.notes)
+        output.print_lines(measurement.notes)
     output.print_lines([f"Results: {folder}"])

@@ -102,20 +102,58 @@ def pressures_from_table(frame: pd.DataFrame, names: Sequence[str]) -> FloatArra
     return pressures
 
 
+def pressures_from_list(names: Sequence[str], pressures_kPa: Sequence[float]) -> FloatArray:
+    """Give pressures to the photographs in the natural order of their names, kPa.
+
+    Raises
+    ------
+    InputError
+        If there are not as many pressures as photographs.
+    """
+    if len(names) != len(pressures_kPa):
+        raise InputError(
+            f"--pressures-kpa gives {len(pressures_kPa)} pressures, but there are {len(names)} photos; "
+            "expected one pressure a photo, so correct the list or use --pressures CSV (photo, pressure_kPa)"
+        )
+    return _in_natural_order(names, np.asarray(pressures_kPa, dtype=float))
+
+
 def pressures_from_step(names: Sequence[str], step_kPa: float) -> FloatArray:
     """Count up from 0 in equal steps along the natural order of the names, kPa.
 
     Raises
     ------
     InputError
-        If the step is not positive.
+        If the step is not positive, or the names' numbers skip one, so that a photograph may be missing.
     """
     if not (np.isfinite(step_kPa) and step_kPa > 0):
         raise InputError(f"--pressure-step-kpa is {step_kPa:g}; expected a number above 0")
+    _refuse_gap(sorted(names, key=natural_key))
+    return _in_natural_order(names, np.arange(len(names), dtype=float) * step_kPa)
+
+
+def _in_natural_order(names: Sequence[str], values: FloatArray) -> FloatArray:
     order = sorted(range(len(names)), key=lambda k: natural_key(names[k]))
     pressures = np.empty(len(names))
-    pressures[order] = np.arange(len(names)) * step_kPa
+    pressures[order] = values
     return pressures
+
+
+def _refuse_gap(names: list[str]) -> None:
+    """Refuse names whose counter goes up by one but for a skip: a photograph may be missing there."""
+    numbers = [re.findall(r"\d+", SUFFIX.sub("", name)) for name in names]
+    if len({len(found) for found in numbers}) != 1:
+        return
+    for counter in zip(*numbers, strict=True):
+        steps = np.diff([int(text) for text in counter])
+        # A date or a time of day does not go up by one from most photographs to the next.
+        if np.count_nonzero(steps == 1) > 0.5 * len(steps) and steps.min() >= 1 and steps.max() > 1:
+            skip = int(np.argmax(steps > 1))
+            raise InputError(
+                f"the numbering skips from {names[skip]} to {names[skip + 1]}, so a photo may be missing and "
+                "--pressure-step-kpa cannot be trusted; give each photo's pressure with --pressures CSV, or "
+                "all of them with --pressures-kpa"
+            )
 
 
 def _with_unit(stem: str) -> list[float]:

@@ -134,3 +134,25 @@ def test_an_output_that_cannot_be_written_or_is_in_use_is_refused_before_the_wor
     (tmp_path / "used").mkdir()
     (tmp_path / "used" / "notes.txt").write_text("mine")
     assert spavision("track", photos, "-o", "used").is_one_sentence_about("--force")
+
+
+def test_a_list_of_pressures_must_fit_the_number_of_photos(spavision, photos):
+    outcome = spavision("track", photos, "--pressures-kpa", "0:65:5")
+    assert outcome.is_one_sentence_about("--pressures-kpa", "14 pressures", "3 photos")
+
+
+def test_two_ways_of_telling_the_pressures_are_refused(spavision, photos):
+    outcome = spavision("track", photos, "--pressures-kpa", "0,5,10", "--pressure-step-kpa", "5")
+    assert outcome.is_one_sentence_about("--pressures-kpa", "--pressure-step-kpa", "one of them")
+    assert spavision("track", photos, "--pressures-kpa", "ten").is_one_sentence_about("'ten'", "from:to:step")
+
+
+def test_larger_photos_than_asked_for_are_not_read(spavision, photos):
+    outcome = spavision("track", photos, "--largest-megapixels", "0.5")
+    assert outcome.is_one_sentence_about(A_FEW[0], "megapixels", "0.5 allowed")
+
+
+def test_the_same_photo_under_two_names_is_told(spavision, photos):
+    (photos / "IMG_0009_045kPa.jpg").write_bytes((photos / A_FEW[2]).read_bytes())
+    outcome = spavision("track", photos, "-o", "out")
+    assert f"{A_FEW[2]} and IMG_0009_045kPa.jpg are the same file" in outcome.out

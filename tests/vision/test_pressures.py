@@ -5,7 +5,12 @@ import pandas as pd
 import pytest
 
 from spavision.errors import InputError, InputWarning
-from spavision.vision.pressures import pressures_from_names, pressures_from_step, pressures_from_table
+from spavision.vision.pressures import (
+    pressures_from_list,
+    pressures_from_names,
+    pressures_from_step,
+    pressures_from_table,
+)
 
 
 @pytest.mark.parametrize(
@@ -90,3 +95,28 @@ def test_a_step_counts_along_the_natural_order():
 def test_a_step_must_be_positive(step_kPa):
     with pytest.raises(InputError, match="--pressure-step-kpa"):
         pressures_from_step(["a.jpg"], step_kPa)
+
+
+def test_a_list_is_laid_over_the_natural_order_when_its_length_fits():
+    names = ["a10.jpg", "a9.jpg", "a11.jpg"]
+    np.testing.assert_array_equal(pressures_from_list(names, [0, 5, 20]), [5, 0, 20])
+    with pytest.raises(InputError, match="gives 2 pressures, but there are 3 photos"):
+        pressures_from_list(names, [0, 5])
+
+
+def test_a_step_is_refused_where_the_counter_skips():
+    names = ["IMG_0003.jpg", "IMG_0004.jpg", "IMG_0006.jpg", "IMG_0007.jpg"]
+    with pytest.raises(InputError, match=r"skips from IMG_0004\.jpg to IMG_0006\.jpg"):
+        pressures_from_step(names, 5.0)
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        ["a5.jpg", "a10.jpg", "a15.jpg"],
+        ["20240501_101502.jpg", "20240501_101533.jpg", "20240501_101604.jpg"],
+        ["first.jpg", "second.jpg"],
+    ],
+)
+def test_a_step_serves_where_no_counter_skips(names):
+    np.testing.assert_array_equal(np.sort(pressures_from_step(names, 5.0)), 5.0 * np.arange(len(names)))

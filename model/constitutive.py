@@ -8,10 +8,10 @@ import numpy as np
 
 from .element_geometry import ElementGeometry
 from .elements import FloatArray, IntArray
+from .fibre_points import FibreFamily, add_fibres, fibre_response
 from .hex_mesh import HexMesh
-from .materials.slack_fibre import SlackFibre
-from .materials.solid import SolidMaterial
-from .stress_kernels import add_fibre, deformation, principal_moduli, principal_stress
+from .materials.solid import IsotropicLaw, SolidMaterial
+from .stress_kernels import deformation, principal_moduli, principal_stress
 
 
 @dataclass(frozen=True)
@@ -53,6 +53,25 @@ class Deformation:
         return bool(np.all(self.J > 0.0))
 
 
+@dataclass(frozen=True)
+class MaterialResponse:
+    """Stress and moduli at the Gauss points, volumetric part left out.
+
+    Parameters
+    ----------
+    stress : array, shape (n_elements, n_points, 6)
+        Kirchhoff stress in MPa, components 11, 22, 33, 12, 23, 13.
+    moduli : array, shape (n_elements, n_points, 6, 6)
+        Spatial moduli in MPa.
+    fibres : tuple of FibreFamily
+        In the order of their rows in an array of tensions.
+    """
+
+    stress: FloatArray
+    moduli: FloatArray
+    fibres: tuple[FibreFamily, ...]
+
+
 def material_groups(mesh: HexMesh, materials: dict[str, SolidMaterial]) -> tuple[MaterialGroup, ...]:
     """Return one group for each distinct material, in the order of the regions."""
     regions: dict[SolidMaterial, list[int]] = {}
@@ -91,27 +110,37 @@ def deform(displacement: FloatArray, elements: IntArray, geometry: ElementGeomet
     return out
 
 
-def stress_and_moduli(
-    groups: tuple[MaterialGroup, ...], state: Deformation, *, with_moduli: bool
-) -> tuple[FloatArray, FloatArray]:
+def evaluate_materials(
+    groups: tuple[MaterialGroup, ...], state: Deformation, *, tension: FloatArray | None = None
+) -> MaterialResponse:
     """Evaluate every material, volumetric part left out.
 
-    Returns
-    -------
-    stress : array, shape (n_elements, n_points, 6)
-        Kirchhoff stress in MPa, components 11, 22, 33, 12, 23, 13.
-    moduli : array, shape (n_elements, n_points, 6, 6), or (0, 0, 6, 6) without moduli
+    Parameters
+    ----------
+    groups : tuple of MaterialGroup
+    state : Deformation
+    tension : array, shape (n_fibre_rows, n_points), optional
+        Fibre tensions predicted by the last Newton iteration, see `fibre_response`.
     """
     n_elements, n_points = state.J.shape
     stress = np.empty((n_elements, n_points, 6))
-    moduli = np.empty((n_elements, n_points, 6, 6) if with_moduli else (0, 0, 6, 6))
+    moduli = np.empty((n_elements, n_points, 6, 6))
+    fibres = []
+    row = 0
     for group in groups:
-        part = _take(state, group.elements)
-        part_stress, part_moduli = _evaluate(group.material, part, with_moduli=with_moduli)
-        stress[group.elements] = part_stress.reshape(-1, n_points, 6)
-        if with_moduli:
-            moduli[group.elements] = part_moduli.reshape(-1, n_points, 6, 6)
-    return stress, moduli
+        elements = group.elements
+        group_stress, group_moduli = _evaluate(group.material.law, _take(state, elements))
+        group_stress = group_stress.reshape(-1, n_points, 6)
+        group_moduli = group_moduli.reshape(-1, n_points, 6, 6)
+        for fibre in group.material.fibres:
+            predicted = None if tension is None else tension[row : row + len(elements)]
+            response = fibre_response(fibre, state.F[elements], predicted)
+            add_fibres(response, group_stress, group_moduli)
+            fibres.append(FibreFamily(fibre, elements, response))
+            row += len(elements)
+        stress[elements] = group_stress
+        moduli[elements] = group_moduli
+    return MaterialResponse(stress, moduli, tuple(fibres))
 
 
 def isochoric_energy(groups: tuple[MaterialGroup, ...], state: Deformation, volumes: FloatArray) -> float:
@@ -121,7 +150,7 @@ def isochoric_energy(groups: tuple[MaterialGroup, ...], state: Deformation, volu
         part = _take(state, group.elements)
         density = group.material.law.energy(_isochoric(part.log_stretch))
         for fibre in group.material.fibres:
-            density = density + fibre.energy(_fibre_stretch(fibre, part.F)[1])
+            density = density + fibre.energy(np.linalg.norm(part.F @ np.asarray(fibre.direction), axis=1))
         total += float(density @ volumes[group.elements].ravel())
     return total
 
@@ -140,23 +169,10 @@ def _isochoric(log_stretch: FloatArray) -> FloatArray:
     return log_stretch - log_stretch.mean(axis=1, keepdims=True)
 
 
-def _evaluate(
-    material: SolidMaterial, state: Deformation, *, with_moduli: bool
-) -> tuple[FloatArray, FloatArray]:
-    first, second = material.law.derivatives(_isochoric(state.log_stretch))
+def _evaluate(law: IsotropicLaw, state: Deformation) -> tuple[FloatArray, FloatArray]:
+    first, second = law.derivatives(_isochoric(state.log_stretch))
     stress = np.empty((len(first), 6))
-    moduli = np.empty((len(first) if with_moduli else 0, 6, 6))
+    moduli = np.empty((len(first), 6, 6))
     principal_stress(state.directions, first, stress)
-    if with_moduli:
-        principal_moduli(state.directions, state.log_stretch, first, second, moduli)
-    for fibre in material.fibres:
-        direction, stretch = _fibre_stretch(fibre, state.F)
-        tension = fibre.tension(stretch) / stretch
-        add_fibre(direction, tension, (fibre.stiffness(stretch) - tension) / stretch**2, stress, moduli)
+    principal_moduli(state.directions, state.log_stretch, first, second, moduli)
     return stress, moduli
-
-
-def _fibre_stretch(fibre: SlackFibre, F: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Deformed fibre vectors, (n, 3), and their lengths, (n,)."""
-    direction = F @ np.asarray(fibre.direction)
-    return direction, np.sqrt(np.einsum("ni,ni->n", direction, direction))

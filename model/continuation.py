@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from .elements import FloatArray
-from .equilibrium import Equilibrium, Load, State
+from .equilibrium import Equilibrium
 from .linear_solver import LinearSolver
 from .newton import NewtonResult, NewtonSettings, NotConvergedError, find_equilibrium
+from .state import Load, State, combine
 
 
 @dataclass(frozen=True)
@@ -20,16 +21,13 @@ class SteppingSettings:
     Parameters
     ----------
     first_step_kPa, largest_step_kPa, smallest_step_kPa : float
-    extrapolation_points : int
-        Earlier states through which the start of the next is extrapolated.
     easy_iterations, hard_iterations : int
         Up to the first the next step grows by half, from the second on it is halved.
     """
 
-    first_step_kPa: float = 2.5
+    first_step_kPa: float = 5.0
     largest_step_kPa: float = 5.0
     smallest_step_kPa: float = 0.02
-    extrapolation_points: int = 4
     easy_iterations: int = 4
     hard_iterations: int = 7
 
@@ -92,7 +90,7 @@ def settle_under_gravity(
 
 def pressure_ramp(
     problem: Equilibrium,
-    start: State,
+    start: NewtonResult,
     *,
     targets_kPa: FloatArray,
     gravity: bool,
@@ -105,7 +103,7 @@ def pressure_ramp(
     Parameters
     ----------
     problem : Equilibrium
-    start : State
+    start : NewtonResult
         Equilibrium at zero pressure.
     targets_kPa : array, shape (n,)
         Positive and increasing; each of them is met exactly.
@@ -124,42 +122,76 @@ def pressure_ramp(
     RampStoppedError
         If no step above the smallest converges.
     """
-    history = [(0.0, start)]
+    history = [_waypoint(problem, 0.0, start, solver)]
     step = stepping.first_step_kPa
     for target in targets_kPa:
-        while history[-1][0] < target:
-            pressure = _next_pressure(history[-1][0], step, float(target))
+        while history[-1].pressure_kPa < target:
+            pressure = _next_pressure(history[-1].pressure_kPa, step, float(target))
             load = Load(pressure * 1e-3, float(gravity))
             guess = extrapolate(history, pressure)
             try:
                 result = find_equilibrium(problem, guess, load, solver=solver, settings=newton)
             except NotConvergedError as error:
-                step = 0.5 * (pressure - history[-1][0])
+                step = 0.5 * (pressure - history[-1].pressure_kPa)
                 if step < stepping.smallest_step_kPa:
-                    raise RampStoppedError(history[-1][0], str(error)) from error
+                    raise RampStoppedError(history[-1].pressure_kPa, str(error)) from error
                 continue
             step = _adapted(step, result.iterations, stepping)
-            history = [*history, (pressure, result.state)][-stepping.extrapolation_points :]
+            history = [history[-1], _waypoint(problem, pressure, result, solver)]
             yield AcceptedStep(pressure, result)
 
 
-def extrapolate(history: list[tuple[float, State]], pressure_kPa: float) -> State:
-    """Return Lagrange's polynomial through earlier states at a further pressure.
+@dataclass(frozen=True)
+class Waypoint:
+    """A state on the path and the direction in which the path goes on.
 
     Parameters
     ----------
-    history : list of (pressure_kPa, State)
+    pressure_kPa : float
+    state : State
+    rate : State or None
+        Change per kPa; None where no tangent is at hand.
+    """
+
+    pressure_kPa: float
+    state: State
+    rate: State | None
+
+
+def extrapolate(history: list[Waypoint], pressure_kPa: float) -> State:
+    """Continue the path to a further pressure: Hermite's cubic through two waypoints, a line from one.
+
+    Parameters
+    ----------
+    history : list of Waypoint
+        The last one or two.
     pressure_kPa : float
     """
-    pressures = np.array([pressure for pressure, _ in history])
-    weights = [
-        float(np.prod((pressure_kPa - np.delete(pressures, k)) / (pressures[k] - np.delete(pressures, k))))
-        for k in range(len(history))
-    ]
-    return State(
-        displacement=np.einsum("k,kai->ai", weights, np.stack([state.displacement for _, state in history])),
-        pressure=np.einsum("k,kem->em", weights, np.stack([state.pressure for _, state in history])),
+    first, last = history[0], history[-1]
+    if last.rate is None:
+        return last.state
+    if first is last or first.rate is None:
+        return combine((1.0, pressure_kPa - last.pressure_kPa), (last.state, last.rate))
+    span = last.pressure_kPa - first.pressure_kPa
+    t = (pressure_kPa - first.pressure_kPa) / span
+    weights = (
+        (1.0 + 2.0 * t) * (1.0 - t) ** 2,
+        span * t * (1.0 - t) ** 2,
+        t**2 * (3.0 - 2.0 * t),
+        span * t**2 * (t - 1.0),
     )
+    return combine(weights, (first.state, first.rate, last.state, last.rate))
+
+
+def _waypoint(
+    problem: Equilibrium, pressure_kPa: float, result: NewtonResult, solver: LinearSolver
+) -> Waypoint:
+    """Find the path's direction with the last tangent, which is a correction or two behind the state."""
+    if result.tangent_at is None:
+        return Waypoint(pressure_kPa, result.state, None)
+    rate = np.zeros_like(result.state.displacement)
+    rate[problem.is_free] = solver.solve(1e-3 * problem.unit_pressure_forces(result.state)[problem.is_free])
+    return Waypoint(pressure_kPa, result.state, problem.linear_change(result.tangent_at, rate))
 
 
 def _next_pressure(current: float, step: float, target: float) -> float:

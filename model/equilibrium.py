@@ -10,11 +10,12 @@ from scipy.sparse import csr_array
 from .cavity import Cavity
 from .constitutive import (
     Deformation,
+    MaterialResponse,
     deform,
+    evaluate_materials,
     isochoric_energy,
     material_groups,
     per_element,
-    stress_and_moduli,
 )
 from .element_geometry import ElementGeometry, element_geometry
 from .element_kernels import element_forces, element_tangents
@@ -22,41 +23,13 @@ from .elements import FloatArray, IntArray, reference_element
 from .hex_mesh import BoolArray, HexMesh
 from .materials.solid import SolidMaterial
 from .sparsity import TangentPattern, tangent_pattern
+from .state import Load, State, combine
+from .stress_measures import linear_change, pull_back, push_forward
+
+__all__ = ["GRAVITY_MM_PER_S2", "Balance", "Equilibrium", "Load", "State"]
 
 GRAVITY_MM_PER_S2 = 9810.0
 """Standard gravity, rounded; in mm/s² it goes with tonne and N."""
-
-
-@dataclass(frozen=True)
-class State:
-    """A point in the space of solutions.
-
-    Parameters
-    ----------
-    displacement : array, shape (n_nodes, 3)
-        In mm.
-    pressure : array, shape (n_elements, n_modes)
-        Coefficients of the solid's own pressure, κ(J − 1) when converged.
-    """
-
-    displacement: FloatArray
-    pressure: FloatArray
-
-
-@dataclass(frozen=True)
-class Load:
-    """What acts on the body.
-
-    Parameters
-    ----------
-    gas_pressure_MPa : float
-        Gauge pressure in the cavity.
-    gravity : float
-        Fraction of its own weight that the body bears.
-    """
-
-    gas_pressure_MPa: float
-    gravity: float
 
 
 @dataclass(frozen=True)
@@ -68,20 +41,25 @@ class Balance:
     condensed : array, shape (n_nodes, 3)
         Internal minus external forces, the solid's pressure eliminated as κ(J − 1); at the supports,
         the reactions.
+    mixed : array, shape (n_nodes, 3)
+        The same under the state's own pressure.
     mixed_norm, load_norm : float
-        Norms of the forces out of balance under the state's own pressure and of the external forces.
+        Norms of the latter, over the free components, and of the external forces.
     projected_pressure : array, shape (n_elements, n_modes)
         κ(J − 1) projected on the pressure modes.
     pressure_operator : array, shape (n_elements, n_modes, 3, n_element_nodes)
     kinematics : Deformation
+    response : MaterialResponse
     """
 
     condensed: FloatArray
+    mixed: FloatArray
     mixed_norm: float
     load_norm: float
     projected_pressure: FloatArray
     pressure_operator: FloatArray
     kinematics: Deformation
+    response: MaterialResponse
 
     @property
     def relative_residual(self) -> float:
@@ -133,27 +111,36 @@ class Equilibrium:
         kinematics = deform(state.displacement, self.mesh.elements, self.geometry)
         if not kinematics.is_admissible:
             return None
-        stress, _ = stress_and_moduli(self.groups, kinematics, with_moduli=False)
-        forces, dilatation, operator = self._integrate(kinematics, stress)
+        response = evaluate_materials(self.groups, kinematics, tension=state.tension)
+        forces, dilatation, operator = self._integrate(kinematics, response.stress)
         projected = self.bulk_modulus_MPa[:, None] * dilatation
         external = load.gravity * self._weight + load.gas_pressure_MPa * self.unit_pressure_forces(state)
         condensed = self._scatter(forces + np.einsum("em,emia->eia", projected, operator)) - external
         mixed = self._scatter(forces + np.einsum("em,emia->eia", state.pressure, operator)) - external
         return Balance(
             condensed=condensed,
+            mixed=mixed,
             mixed_norm=float(np.linalg.norm(mixed[self.is_free])),
             load_norm=float(np.linalg.norm(external[self.is_free])),
             projected_pressure=projected,
             pressure_operator=operator,
             kinematics=kinematics,
+            response=response,
         )
 
     def tangent(self, state: State, load: Load, balance: Balance) -> csr_array:
-        """Assemble the upper triangle of the derivative of the condensed forces."""
+        """Assemble the upper triangle of the derivative of the condensed forces.
+
+        Exact at a state without predicted stress. With it, the geometric part is formed with the prediction,
+        which lets Newton's method take larger steps (Magisano, Leonetti and Garcea, 2017).
+        """
         kinematics, geometry = balance.kinematics, self.geometry
-        stress, moduli = stress_and_moduli(self.groups, kinematics, with_moduli=True)
+        stress = balance.response.stress
+        if state.stress is not None:
+            stress = np.empty_like(state.stress)
+            push_forward(kinematics.F, state.stress, stress)
         n_elements, n_nodes = self.mesh.elements.shape
-        buffer = np.empty(self.pattern.buffer_size)
+        buffer = np.empty(len(self.pattern.places))
         n_solid = n_elements * 6 * n_nodes**2
         element_tangents(
             geometry.gradients,
@@ -162,7 +149,7 @@ class Equilibrium:
             kinematics.F,
             kinematics.J,
             stress,
-            moduli,
+            balance.response.moduli,
             state.pressure,
             self.bulk_modulus_MPa,
             balance.pressure_operator,
@@ -170,15 +157,78 @@ class Equilibrium:
         )
         position = self.mesh.nodes_mm + state.displacement
         buffer[n_solid:] = (-load.gas_pressure_MPa * self.cavity.hessians(position)).ravel()
-        return self.pattern.gather(buffer)
+        return self.pattern.assemble(buffer)
 
-    def update(self, state: State, balance: Balance, correction: FloatArray) -> State:
-        """Return the state after a Newton correction of the free displacement components, shape (n_free,)."""
+    def residual(self, state: State, balance: Balance, tangent_at: Balance) -> FloatArray:
+        """Return the forces that a correction has to balance, shape (n_free,).
+
+        Parameters
+        ----------
+        state : State
+        balance : Balance
+            At the state.
+        tangent_at : Balance
+            Where the tangent was formed. If that was elsewhere, the pressure has to be eliminated as it was
+            there: with the bulk modulus in between, the two differ by far more than the forces themselves.
+        """
+        if tangent_at is balance:
+            return balance.condensed[self.is_free]
+        lacking = balance.projected_pressure - state.pressure
+        forces = np.einsum("em,emia->eia", lacking, tangent_at.pressure_operator)
+        return (balance.mixed + self._scatter(forces))[self.is_free]
+
+    def update(
+        self, state: State, balance: Balance, correction: FloatArray, *, tangent_at: Balance | None = None
+    ) -> State:
+        """Return the state after a Newton correction of the free displacement components, shape (n_free,).
+
+        Parameters
+        ----------
+        state : State
+        balance : Balance
+            At the state.
+        correction : array, shape (n_free,)
+        tangent_at : Balance, optional
+            Where the tangent was formed, if it was elsewhere.
+        """
         step = np.zeros_like(state.displacement)
         step[self.is_free] = correction
-        change = np.einsum("emia,eai->em", balance.pressure_operator, step[self.mesh.elements])
-        pressure = balance.projected_pressure + self.bulk_modulus_MPa[:, None] * change
-        return State(state.displacement + step, pressure)
+        change = self.linear_change(tangent_at or balance, step)
+        stress = np.empty_like(balance.response.stress)
+        pull_back(balance.kinematics.F, balance.kinematics.J, balance.response.stress, stress)
+        tension = [family.response.tension for family in balance.response.fibres]
+        here = State(
+            state.displacement,
+            balance.projected_pressure,
+            stress,
+            np.concatenate(tension) if tension else None,
+        )
+        return combine((1.0, 1.0), (here, change))
+
+    def linear_change(self, balance: Balance, displacement: FloatArray) -> State:
+        """Return the change of everything with a change of the displacement, shape (n_nodes, 3)."""
+        kinematics, elements = balance.kinematics, self.mesh.elements
+        pressure = np.einsum("emia,eai->em", balance.pressure_operator, displacement[elements], optimize=True)
+        change_of_F = np.empty_like(kinematics.F)
+        stress = np.empty_like(balance.response.stress)
+        linear_change(
+            displacement,
+            elements,
+            self.geometry.gradients,
+            kinematics.F,
+            kinematics.J,
+            balance.response.moduli,
+            change_of_F,
+            stress,
+        )
+        fibres = balance.response.fibres
+        tension = [family.tension_change(change_of_F[family.elements]) for family in fibres]
+        return State(
+            displacement,
+            self.bulk_modulus_MPa[:, None] * pressure,
+            stress,
+            np.concatenate(tension) if tension else None,
+        )
 
     def enclosed_volume_mm3(self, state: State) -> float:
         """Return the cavity's volume (half of it in a half model)."""

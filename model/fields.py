@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .actuator_problem import actuator_materials
-from .constitutive import deform, material_groups, per_element, stress_and_moduli
+from .constitutive import deform, evaluate_materials, material_groups, per_element
 from .element_geometry import element_geometry
 from .elements import FloatArray
 from .simulation import Simulation
@@ -57,7 +57,7 @@ def element_fields(simulation: Simulation, row: int) -> ElementFields:
     groups = material_groups(mesh, materials)
     state = deform(displacement, mesh.elements, geometry)
     share = geometry.volumes / geometry.volumes.sum(axis=1, keepdims=True)
-    kirchhoff, _ = stress_and_moduli(groups, state, with_moduli=False)
+    kirchhoff = evaluate_materials(groups, state).stress
     cauchy = np.einsum("eq,eqs->es", share, kirchhoff / state.J[..., None])
     deviator = cauchy - np.array([1, 1, 1, 0, 0, 0]) * cauchy[:, :3].mean(axis=1)[:, None]
     bulk = per_element(groups, len(mesh.elements), "bulk_modulus_MPa")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from importlib.util import find_spec
 from typing import Protocol
 
@@ -88,7 +89,8 @@ class PardisoSolver:
             raise SingularTangentError(str(error)) from error
 
     def __del__(self) -> None:
-        if getattr(self, "_matrix", None) is not None:
+        # At the interpreter's end the memory goes anyway, and the wrapper's imports are gone.
+        if getattr(self, "_matrix", None) is not None and not sys.is_finalizing():
             self._pardiso.free_memory(everything=True)
 
 

@@ -9,6 +9,9 @@ import numpy as np
 from .equilibrium import Balance, Equilibrium, Load, State
 from .linear_solver import LinearSolver, SingularTangentError
 
+_FAST_SHRINKAGE = 0.3
+"""Ratio of corrections up to which a kept tangent costs less than a new one."""
+
 
 @dataclass(frozen=True)
 class NewtonSettings:
@@ -23,12 +26,16 @@ class NewtonSettings:
     largest_correction_mm : float
         A correction beyond this is taken as divergence.
     max_iterations : int
+    reuse_below_mm : float
+        After a correction below this the factorised tangent is kept, as long as the corrections shrink
+        fast; 0 forms a new one in each iteration.
     """
 
     residual_tolerance: float = 1e-5
     correction_tolerance_mm: float = 1e-2
     largest_correction_mm: float = 60.0
     max_iterations: int = 9
+    reuse_below_mm: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -43,13 +50,16 @@ class NewtonResult:
     residuals : tuple of float
         Relative residual before each iteration and at the end.
     negative_pivots : int or None
-        Negative eigenvalues of the last tangent factorised, one correction before the end.
+        Negative eigenvalues of the last tangent factorised, a correction or two before the end.
+    tangent_at : Balance or None
+        Where that tangent was formed.
     """
 
     state: State
     iterations: int
     residuals: tuple[float, ...]
     negative_pivots: int | None
+    tangent_at: Balance | None = None
 
 
 class NotConvergedError(ArithmeticError):
@@ -66,7 +76,11 @@ def find_equilibrium(
     NotConvergedError
         If the iteration diverges, turns an element inside out or meets a singular tangent.
     """
-    state, residuals, correction_mm = start, [], np.inf
+    state = start
+    residuals: list[float] = []
+    corrections = _Corrections(settings)
+    tangent_at: Balance | None = None
+    tangents = 0
     for iteration in range(settings.max_iterations + 1):
         balance = problem.balance(state, load)
         if balance is None:
@@ -74,23 +88,45 @@ def find_equilibrium(
         residuals.append(balance.relative_residual)
         if not np.isfinite(residuals[-1]):
             raise NotConvergedError("the forces overflowed")
-        if residuals[-1] < settings.residual_tolerance and correction_mm < settings.correction_tolerance_mm:
-            return NewtonResult(state, iteration, tuple(residuals), solver.negative_pivots)
+        if residuals[-1] < settings.residual_tolerance and corrections.are_done:
+            return NewtonResult(state, tangents, tuple(residuals), solver.negative_pivots, tangent_at)
         if iteration == settings.max_iterations:
             break
-        state, correction_mm = _iterate(problem, state, load, balance, solver)
-        if not correction_mm < settings.largest_correction_mm:
-            raise NotConvergedError(f"a correction of {correction_mm:.3g} mm")
+        try:
+            if tangent_at is None or corrections.want_new_tangent:
+                solver.factorise(problem.tangent(state, load, balance))
+                tangent_at, tangents = balance, tangents + 1
+            correction = solver.solve(-problem.residual(state, balance, tangent_at))
+        except SingularTangentError as error:
+            raise NotConvergedError("the tangent is singular") from error
+        corrections.add(float(np.abs(correction).max()))
+        state = problem.update(state, balance, correction, tangent_at=tangent_at)
     raise NotConvergedError(f"no convergence in {settings.max_iterations} iteration(s)")
 
 
-def _iterate(
-    problem: Equilibrium, state: State, load: Load, balance: Balance, solver: LinearSolver
-) -> tuple[State, float]:
-    """One Newton correction: the new state and the largest change of a displacement component."""
-    try:
-        solver.factorise(problem.tangent(state, load, balance))
-        correction = solver.solve(-balance.condensed[problem.is_free])
-    except SingularTangentError as error:
-        raise NotConvergedError("the tangent is singular") from error
-    return problem.update(state, balance, correction), float(np.abs(correction).max())
+class _Corrections:
+    """How large the corrections were, and what follows from it."""
+
+    def __init__(self, settings: NewtonSettings) -> None:
+        self._settings = settings
+        self._last_mm = np.inf
+        self.want_new_tangent = True
+
+    @property
+    def are_done(self) -> bool:
+        """Whether the last one was small enough."""
+        return self._last_mm < self._settings.correction_tolerance_mm
+
+    def add(self, size_mm: float) -> None:
+        """Note a correction.
+
+        Raises
+        ------
+        NotConvergedError
+            If it is beyond all bounds.
+        """
+        if not size_mm < self._settings.largest_correction_mm:
+            raise NotConvergedError(f"a correction of {size_mm:.3g} mm")
+        shrinks = self.want_new_tangent or size_mm < _FAST_SHRINKAGE * self._last_mm
+        self.want_new_tangent = not (shrinks and size_mm < self._settings.reuse_below_mm)
+        self._last_mm = size_mm

@@ -69,7 +69,7 @@ def simulate(
         journal.begin(hanging)
         for step in pressure_ramp(
             problem,
-            hanging.state,
+            hanging,
             targets_kPa=pressures[pressures > 0.0],
             gravity=settings.gravity,
             solver=solver,

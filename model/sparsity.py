@@ -1,15 +1,18 @@
-"""The fixed sparsity pattern of the tangent and the gather that fills it without races."""
+"""The fixed sparsity pattern of the tangent and the scatter that fills it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit, prange
-from scipy.sparse import csr_array
+from numba import njit
+from numpy.typing import NDArray
+from scipy.sparse import coo_array, csr_array
 
 from .element_kernels import BLOCKS
 from .elements import FloatArray, IntArray
+
+IndexArray = NDArray[np.int32]
 
 _FACE_BLOCKS = BLOCKS[3:]
 
@@ -18,31 +21,25 @@ _FACE_BLOCKS = BLOCKS[3:]
 class TangentPattern:
     """Upper triangle, over the free displacement components, of the assembled tangent.
 
-    Each stored entry is the sum of a fixed list of entries of a flat buffer that holds all element
-    blocks and, behind them, all cavity face blocks.
-
     Parameters
     ----------
     n_free : int
     row_starts, columns : array
         CSR structure.
-    list_starts : array, shape (n_entries + 1,)
-    sources : array
-        Positions in the buffer.
-    buffer_size : int
+    places : array
+        For each entry of a flat buffer that holds all element blocks and, behind them, all cavity face
+        blocks: the stored entry that it adds to, −1 for none.
     """
 
     n_free: int
-    row_starts: IntArray
-    columns: IntArray
-    list_starts: IntArray
-    sources: IntArray
-    buffer_size: int
+    row_starts: IndexArray
+    columns: IndexArray
+    places: IndexArray
 
-    def gather(self, buffer: FloatArray) -> csr_array:
-        """Sum the buffer into the upper triangle of the tangent."""
-        data = np.empty(len(self.columns))
-        _sum_lists(self.list_starts, self.sources, buffer, data)
+    def assemble(self, buffer: FloatArray) -> csr_array:
+        """Add the buffer up into the upper triangle of the tangent."""
+        data = np.zeros(len(self.columns))
+        _scatter(self.places, buffer, data)
         return csr_array((data, self.columns, self.row_starts), shape=(self.n_free, self.n_free))
 
 
@@ -63,50 +60,60 @@ def tangent_pattern(elements: IntArray, faces: IntArray, free_number: IntArray) 
         strict=True,
     )
     row, column = np.concatenate(rows), np.concatenate(columns)
-    used = np.flatnonzero(row >= 0)
     n_free = int(free_number.max()) + 1
-    key = row[used] * n_free + column[used]
-    order = np.argsort(key, kind="stable")
-    key = key[order]
-    is_first = np.ones(len(key), dtype=bool)
-    is_first[1:] = key[1:] != key[:-1]
-    starts = np.flatnonzero(is_first)
-    entry_row = key[starts] // n_free
-    return TangentPattern(
-        n_free=n_free,
-        row_starts=np.searchsorted(entry_row, np.arange(n_free + 1)).astype(np.int32),
-        columns=(key[starts] % n_free).astype(np.int32),
-        list_starts=np.append(starts, len(key)).astype(np.int32),
-        sources=used[order].astype(np.int32),
-        buffer_size=len(row),
+    used = row >= 0
+    pattern = csr_array(
+        coo_array((np.ones(np.count_nonzero(used)), (row[used], column[used])), shape=(n_free, n_free))
     )
+    pattern.sort_indices()
+    places = np.empty(len(row), dtype=np.int32)
+    _find_places(row, column, pattern.indptr, pattern.indices, places)
+    return TangentPattern(n_free, pattern.indptr, pattern.indices, places)
 
 
-def _block_entries(cells: IntArray, blocks: IntArray, free_number: IntArray) -> tuple[IntArray, IntArray]:
-    """Row and column of each entry of the cells' blocks, −1 for those not assembled.
+def _block_entries(cells: IntArray, blocks: IntArray, free_number: IntArray) -> tuple[IndexArray, IndexArray]:
+    """Row and column of each entry of the cells' blocks, row −1 for those not assembled.
 
     Blocks of two different components stand for both triangles of the cell's tangent, blocks of equal
     components are symmetric themselves, so that one of each pair of entries is left out.
     """
     n_nodes = cells.shape[1]
-    number = free_number[cells]
+    number = free_number[cells].astype(np.int32)
     lower_half = np.tril(np.ones((n_nodes, n_nodes), dtype=bool), k=-1)
-    rows = np.empty((len(cells), len(blocks), n_nodes, n_nodes), dtype=np.int64)
+    rows = np.empty((len(cells), len(blocks), n_nodes, n_nodes), dtype=np.int32)
     columns = np.empty_like(rows)
     for index, (i, j) in enumerate(blocks):
-        first = np.broadcast_to(number[:, :, None, i], (len(cells), n_nodes, n_nodes))
-        second = np.broadcast_to(number[:, None, :, j], (len(cells), n_nodes, n_nodes))
-        rows[:, index] = np.minimum(first, second)
-        columns[:, index] = np.maximum(first, second)
+        first = number[:, :, None, i]
+        second = number[:, None, :, j]
+        np.minimum(first, second, out=rows[:, index])
+        np.maximum(first, second, out=columns[:, index])
         if i == j:
             rows[:, index][:, lower_half] = -1
     return rows.ravel(), columns.ravel()
 
 
-@njit(cache=True, parallel=True)
-def _sum_lists(starts: IntArray, sources: IntArray, buffer: FloatArray, out: FloatArray) -> None:
-    for entry in prange(len(out)):
-        total = 0.0
-        for place in range(starts[entry], starts[entry + 1]):
-            total += buffer[sources[place]]
-        out[entry] = total
+@njit(cache=True)
+def _find_places(
+    row: IndexArray, column: IndexArray, row_starts: IndexArray, columns: IndexArray, places: IndexArray
+) -> None:
+    """Find each entry in its row by bisection."""
+    for entry in range(len(row)):
+        if row[entry] < 0:
+            places[entry] = -1
+            continue
+        low, high = row_starts[row[entry]], row_starts[row[entry] + 1]
+        while high - low > 1:
+            middle = (low + high) // 2
+            if columns[middle] <= column[entry]:
+                low = middle
+            else:
+                high = middle
+        places[entry] = low
+
+
+@njit(cache=True)
+def _scatter(places: IndexArray, buffer: FloatArray, out: FloatArray) -> None:
+    """Add up in one thread: it is bound by memory, and the order of summation stays."""
+    for entry in range(len(places)):
+        if places[entry] >= 0:
+            out[places[entry]] += buffer[entry]

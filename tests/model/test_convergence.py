@@ -36,7 +36,7 @@ def test_newton_is_quadratic() -> None:
     residuals = np.array(newton_residuals(0.45))
     before, after = residuals[-3:-1], residuals[-2:]
     assert before[0] < 1e-2
-    assert np.all(after < before**1.8)
+    assert np.all(after < np.maximum(before**1.8, 1e-13))  # the latter is rounding
 
 
 def test_newton_without_follower_stiffness_is_not(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from scipy.sparse import triu
 
-from spavision.model.constitutive import deform, stress_and_moduli
+from spavision.model.constitutive import deform, evaluate_materials
 from spavision.model.element_kernels import BLOCKS, element_forces, element_tangents
 from spavision.model.equilibrium import Equilibrium, Load, State
+from spavision.model.fibre_points import fibre_response
 from spavision.model.linear_solver import linear_solver
 from spavision.model.materials.slack_fibre import SlackFibre
 from spavision.model.materials.solid import SolidMaterial
@@ -61,11 +62,53 @@ def test_tangent_against_finite_differences(body_solid: SolidMaterial, order: in
 
 
 @pytest.mark.parametrize("order", [1, 2])
+def test_linear_change_against_finite_differences(body_solid: SolidMaterial, order: int) -> None:
+    """What a correction predicts of pressure, stress S = F⁻¹·τ·F⁻ᵀ and tension is their derivative."""
+    body = problem(with_fibre(body_solid), order=order)
+    state = displaced(body, 0.12)
+    move = np.random.default_rng(4).standard_normal(state.displacement.shape) * body.is_free
+    step = 1e-6
+
+    def moved(sign: float) -> State:
+        end = State(state.displacement + sign * step * move, state.pressure)
+        balance = body.balance(end, LOAD)
+        inverse = np.linalg.inv(balance.kinematics.F)
+        kirchhoff = balance.response.stress[..., [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
+        reference = inverse @ kirchhoff @ np.swapaxes(inverse, -1, -2)
+        (family,) = balance.response.fibres
+        six = reference[..., [0, 1, 2, 0, 1, 0], [0, 1, 2, 1, 2, 2]]
+        return State(end.displacement, balance.projected_pressure, six, family.response.tension)
+
+    forward, back = moved(1.0), moved(-1.0)
+    change = body.linear_change(body.balance(state, LOAD), move)
+    assert np.abs(change.tension).max() > 0.0
+    for name in ("pressure", "stress", "tension"):
+        expected = (getattr(forward, name) - getattr(back, name)) / (2.0 * step)
+        np.testing.assert_allclose(getattr(change, name), expected, atol=1e-6 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("tension", [1e-6, 1e-3, 0.1, 1.0])
+def test_fibre_linearised_at_its_tension(tension: float) -> None:
+    """At convergence prediction and law agree; before, the linearised law still touches the law's curve."""
+    fibre = SlackFibre((0.0, 1.0, 0.0), 10.0, 0.2, 0.1)
+    stretches = np.linspace(0.9, 1.6, 29)
+    F = np.tile(np.eye(3), (1, len(stretches), 1, 1))
+    F[0, :, 1, 1] = stretches
+    response = fibre_response(fibre, F, np.full((1, len(stretches)), tension))
+    # the law is convex: its tangents lie below it
+    assert np.all(response.tension <= fibre.tension(stretches) + 1e-9)
+    agreed = fibre_response(fibre, F, fibre.tension(stretches)[None])
+    np.testing.assert_allclose(agreed.tension[0], fibre.tension(stretches), atol=1e-9)
+    np.testing.assert_allclose(agreed.stiffness[0], fibre.stiffness(stretches), atol=1e-6)
+
+
+@pytest.mark.parametrize("order", [1, 2])
 def test_kernel_against_numpy(body_solid: SolidMaterial, order: int) -> None:
     body = problem(with_fibre(body_solid), order=order)
     state = displaced(body, 0.1)
     geometry, kinematics = body.geometry, deform(state.displacement, body.mesh.elements, body.geometry)
-    stress, moduli = stress_and_moduli(body.groups, kinematics, with_moduli=True)
+    response = evaluate_materials(body.groups, kinematics)
+    stress, moduli = response.stress, response.moduli
     tables = (
         geometry.gradients,
         geometry.volumes,

@@ -64,6 +64,18 @@ def test_every_step_is_in_equilibrium(ramp: Simulation) -> None:
     assert volumes[0] == pytest.approx(SHORT.gas_volume_mm3(), rel=0.01)
 
 
+def test_fast_settings_lose_nothing(ramp: Simulation) -> None:
+    """Two or three factorisations a step, and the tip of a fully converged ramp."""
+    factorisations = [step.newton_iterations for step in ramp.steps]
+    assert sum(factorisations) <= 3.0 * len(factorisations)
+    tight = NewtonSettings(residual_tolerance=1e-9, correction_tolerance_mm=1e-7, max_iterations=20)
+    converged = simulate(
+        SHORT, crimp_ratio=0.2, pressures_kPa=PRESSURES_KPA, settings=replace(DRAFT, newton=tight)
+    )
+    np.testing.assert_allclose(ramp.tip_path.ux_mm, converged.tip_path.ux_mm, atol=1e-3)
+    np.testing.assert_allclose(ramp.tip_path.uy_mm, converged.tip_path.uy_mm, atol=1e-3)
+
+
 def test_hanging_weight_stretches_as_a_bar() -> None:
     """Small strain of a hanging bar: tip displacement w L²/(2 E A), with w the weight per length.
 

@@ -67,7 +67,8 @@ def run(body: Equilibrium, targets: FloatArray, *, by_volume: bool) -> None:
         list(volume_ramp(body, at_rest(body), gravity=0.0, stepping=stepping, **common))  # type: ignore[arg-type]
     else:
         steps = SteppingSettings(smallest_step_kPa=0.05)
-        list(pressure_ramp(body, body.unloaded(), gravity=False, stepping=steps, **common))  # type: ignore[arg-type]
+        start = NewtonResult(body.unloaded(), 0, (), None)
+        list(pressure_ramp(body, start, gravity=False, stepping=steps, **common))  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("by_volume", [False, True])

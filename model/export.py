@@ -45,7 +45,7 @@ def write_vtu_series(simulation: Simulation, folder: Path) -> list[Path]:
         The VTU files, in order of pressure, then the index ``ramp.pvd``.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    cells = [(_CELL_TYPES[simulation.mesh.order], _vtk_elements(simulation.mesh))]
+    cells = [(_CELL_TYPES[simulation.mesh.order], vtk_elements(simulation.mesh))]
     written: list[tuple[float, Path]] = []
     for row in np.flatnonzero(simulation.tip_path.has_reading):
         pressure_kPa = float(simulation.tip_path.pressure_kPa[row])
@@ -68,8 +68,8 @@ def write_vtu_series(simulation: Simulation, folder: Path) -> list[Path]:
     return [path for _, path in written] + [index]
 
 
-def _vtk_elements(mesh: HexMesh) -> IntArray:
-    """Elements with their nodes in VTK's order and positive volume."""
+def vtk_elements(mesh: HexMesh) -> IntArray:
+    """Return the elements with their nodes in VTK's order and positive volume."""
     locations = reference_element(mesh.order).node_locations
     wanted = _VTK_NODES[: len(locations)]
     distance = np.abs(wanted[:, None, :] - locations[None, :, :]).max(axis=2)

@@ -19,24 +19,32 @@ DEFAULT_PRESSURES = "0:65:5"
     show_default=True,
     help="from:to:step, or a list separated by commas.",
 )
+@click.option(
+    "--write-deck",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Also write the model as a deck for CalculiX and Abaqus.",
+)
 @model_options
 @experiment_option
 @results_options
-def simulate(pressures_kpa: str, **given: Any) -> None:
+def simulate(pressures_kpa: str, write_deck: Path | None, **given: Any) -> None:
     """Run the 3D finite-element model of the actuator.
 
-    Writes simulation.csv, the fields as VTU files for ParaView and a picture of the deformed shapes.
+    Writes simulation.csv, the fields as VTU files for ParaView, a picture of the deformed shapes and an
+    animation of the ramp.
     """
     from spavision.results import ResultsFolder
 
     from . import output
-    from .model_run import run_model, simulation_record, write_simulation
+    from .model_run import run_model, simulation_record, write_model_deck, write_simulation
     from .options import experiment_for, parse_pressures
 
     experiment = experiment_for(None, given["experiment"], given, MODEL_OPTIONS)
     pressures = parse_pressures(pressures_kpa)
     name = f"crimp-{experiment.actuator.crimp_ratio or 0:.2f}"
     results = ResultsFolder(given["output"] or output.default_output("simulate", name), force=given["force"])
+    if write_deck is not None:
+        write_model_deck(write_deck, experiment, pressures, force=given["force"])
     simulation = run_model(experiment, pressures, quiet=given["quiet"])
     write_simulation(results, simulation)
     results.write_record(
@@ -72,6 +80,21 @@ def _report(simulation: Any, folder: Path, *, as_json: bool, quiet: bool) -> Non
             )
         ]
         output.print_table("Modelled tip path", ["pressure kPa", "x mm", "y mm", "remark"], rows)
+        _report_design(simulation)
     if simulation.stopped_at_kPa is not None:
         output.warn(f"the model stopped at {simulation.stopped_at_kPa:g} kPa: {simulation.stop_reason}")
     output.print_lines([f"Results: {folder}"])
+
+
+def _report_design(simulation: Any) -> None:
+    from spavision.model.outputs import design_outputs
+
+    from . import output
+    from .design import design_rows, stretch_warnings
+
+    if not simulation.tip_path.has_reading.any():
+        return
+    outputs = design_outputs(simulation)
+    output.print_table("For the designer", ["quantity", "value", "remark"], design_rows(outputs))
+    for warning in stretch_warnings(outputs):
+        output.warn(warning)

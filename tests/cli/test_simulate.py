@@ -9,7 +9,8 @@ import pytest
 
 def test_a_short_ramp_writes_path_fields_and_picture(spavision, tmp_path):
     outcome = spavision(
-        "simulate", "--crimp", "0.2", "--mesh", "draft", "--pressures-kpa", "0,5", "-o", "out"
+        *("simulate", "--crimp", "0.2", "--mesh", "draft", "--pressures-kpa", "0,5", "-o", "out"),
+        *("--write-deck", "actuator.inp"),
     )
     assert outcome.code == 0, outcome.err
     path = pd.read_csv(tmp_path / "out" / "simulation.csv")
@@ -21,7 +22,17 @@ def test_a_short_ramp_writes_path_fields_and_picture(spavision, tmp_path):
     assert (tmp_path / "out" / "figures" / "deformed_shapes.png").stat().st_size > 10_000
     record = json.loads((tmp_path / "out" / "run.json").read_text())
     assert record["experiment"]["actuator"]["crimp_ratio"] == 0.2
-    assert "fields/ramp.pvd" in record["files"]
+    assert {"fields/ramp.pvd", "figures/ramp.gif"} <= set(record["files"])
+    assert record["simulation"]["design"]["volume_ratio"] > 1.0
+    assert "largest stretch, Ecoflex 00-30" in outcome.out
+    assert (tmp_path / "actuator.inp").read_text().count("*STEP") == 2  # the weight, 5 kPa
+
+
+def test_a_deck_is_not_replaced_unasked(spavision, tmp_path):
+    (tmp_path / "actuator.inp").write_text("mine")
+    outcome = spavision("simulate", "--crimp", "0.2", "--write-deck", "actuator.inp")
+    assert outcome.is_one_sentence_about("--write-deck", "exists already", "--force")
+    assert (tmp_path / "actuator.inp").read_text() == "mine"
 
 
 @pytest.mark.parametrize(

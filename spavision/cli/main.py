@@ -57,7 +57,8 @@ def main(debug: bool) -> None:
 def run() -> NoReturn:
     """Run the command line.
 
-    It exits with 2 on bad input, 3 where ``--strict`` is not met, 1 on an internal error, 130 when interrupted.
+    It exits with 2 on bad input, 3 where ``--strict`` is not met, 1 on an internal error, and 130 when
+    interrupted.
     """
     debug = "--debug" in sys.argv
     arguments = [argument for argument in sys.argv[1:] if argument != "--debug"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
@@ -25,12 +26,43 @@ NAMED_COLOURS = {
 }
 """sRGB of typical felt pens and stickers; a sampled colour (#rrggbb) serves as well."""
 
+LEAST_CHROMA = 12.0
+"""Less colour than this is grey, of which a checkerboard is full; in units of Lab."""
+
 FOREIGN_HUE_COST = 0.9
 """What a unit of chroma across the marker's hue takes off a unit along it."""
 
 
-def parse_colour(text: str) -> tuple[int, int, int]:
-    """Turn a colour's name or ``#rrggbb`` into sRGB, 0 to 255.
+Rgb = tuple[int, int, int]
+"""sRGB, 0 to 255."""
+
+
+@dataclass(frozen=True)
+class MarkerColour:
+    """Colour of a marker.
+
+    Parameters
+    ----------
+    rgb : tuple of int
+        sRGB, 0 to 255.
+    sampled : bool
+        Whether it was sampled from a photograph, whose light it then carries; else it is as in white light.
+    """
+
+    rgb: Rgb
+    sampled: bool
+
+    def in_white_light(self, levels: tuple[FloatArray, FloatArray]) -> Rgb:
+        """Return the colour as white light would show it; ``levels`` come from `white_balance`."""
+        if not self.sampled:
+            return self.rgb
+        balanced = _balanced(np.array(self.rgb, dtype=np.float32), levels)
+        red, green, blue = np.rint(255.0 * balanced).astype(int).tolist()
+        return red, green, blue
+
+
+def parse_colour(text: str) -> MarkerColour:
+    """Turn a colour's name or ``#rrggbb``, sampled from a photograph, into a colour.
 
     Raises
     ------
@@ -39,20 +71,20 @@ def parse_colour(text: str) -> tuple[int, int, int]:
     """
     name = text.strip().lower()
     if name in NAMED_COLOURS:
-        return NAMED_COLOURS[name]
+        return MarkerColour(NAMED_COLOURS[name], sampled=False)
     if not re.fullmatch(r"#[0-9a-f]{6}", name):
         raise InputError(
             f"--marker-colour is {text!r}; expected {', '.join(NAMED_COLOURS)} or a sampled colour as #rrggbb"
         )
     rgb = (int(name[1:3], 16), int(name[3:5], 16), int(name[5:7], 16))
-    if colour_chroma(rgb) < 12.0:
+    if colour_chroma(rgb) < LEAST_CHROMA:
         raise InputError(
             f"--marker-colour {text} is nearly grey like the board; choose a marker with more colour"
         )
-    return rgb
+    return MarkerColour(rgb, sampled=True)
 
 
-def colour_chroma(rgb: tuple[int, int, int]) -> float:
+def colour_chroma(rgb: Rgb) -> float:
     """Return the chroma of a colour given in sRGB, 0 to 255, in units of Lab."""
     _, a, b = _lab(np.array([[rgb]], np.float32) / 255.0)[0, 0]
     return float(np.hypot(a, b))
@@ -71,9 +103,7 @@ def white_balance(rgb: RgbImage, board: BoardView) -> tuple[FloatArray, FloatArr
     return np.median(colours[~bright], axis=0), np.median(colours[bright], axis=0)
 
 
-def colour_strength(
-    rgb: RgbImage, levels: tuple[FloatArray, FloatArray], target: tuple[int, int, int]
-) -> FloatImage:
+def colour_strength(rgb: RgbImage, levels: tuple[FloatArray, FloatArray], target: Rgb) -> FloatImage:
     """Chroma along the target's hue less a share of the chroma across it, in units of Lab.
 
     Parameters
@@ -84,18 +114,22 @@ def colour_strength(
         Dark and bright squares from `white_balance`; bright is made neutral, so that warm or cold light does
         not turn into chroma.
     target : tuple of int
-        Marker colour, sRGB.
+        Marker colour in white light, sRGB.
     """
-    dark, bright = levels
-    # Half the dark level stays: glare lifts it, and taking it off whole would blow up noise in the shadows.
-    floor = 0.5 * dark.min()
-    gain = 0.85 / np.maximum(bright - floor, 8.0)
-    balanced = np.clip((rgb.astype(np.float32) - np.float32(floor)) * gain.astype(np.float32), 0.0, 1.2)
-    lab = _lab(np.minimum(balanced, 1.0))
+    lab = _lab(_balanced(rgb.astype(np.float32), levels))
     _, a, b = _lab(np.array([[target]], np.float32) / 255.0)[0, 0]
     along = (lab[:, :, 1] * a + lab[:, :, 2] * b) / np.hypot(a, b)
     across = (lab[:, :, 2] * a - lab[:, :, 1] * b) / np.hypot(a, b)
     return along - FOREIGN_HUE_COST * np.abs(across)
+
+
+def _balanced(rgb: FloatImage, levels: tuple[FloatArray, FloatArray]) -> FloatImage:
+    """Colours from 0 to 1 in which bright squares are neutral."""
+    dark, bright = levels
+    # Half the dark level stays: glare lifts it, and taking it off whole would blow up noise in the shadows.
+    floor = 0.5 * dark.min()
+    gain = 0.85 / np.maximum(bright - floor, 8.0)
+    return np.clip((rgb - np.float32(floor)) * gain.astype(np.float32), 0.0, 1.0)
 
 
 def _lab(rgb: FloatImage) -> FloatImage:

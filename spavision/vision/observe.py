@@ -12,6 +12,7 @@ from spavision.errors import InputError
 from .arrays import FloatImage, blur, sample, shrink, shrunk_place
 from .board import BoardView, find_board
 from .camera import project
+from .colour import LEAST_CHROMA, MarkerColour, colour_chroma, white_balance
 from .marker import Candidate, find_candidates
 from .photos import Photo, read_photo
 
@@ -24,13 +25,12 @@ class MarkerLook:
 
     Parameters
     ----------
-    colour : tuple of int
-        sRGB, 0 to 255.
+    colour : MarkerColour
     diameter_squares : float or None
         Diameter in squares of the board, where known.
     """
 
-    colour: tuple[int, int, int]
+    colour: MarkerColour
     diameter_squares: float | None
 
 
@@ -113,7 +113,10 @@ def observe(
 
 
 def _candidates(photo: Photo, board: BoardView, look: MarkerLook) -> tuple[Candidate, ...]:
-    return find_candidates(photo.rgb, board, colour=look.colour, diameter_squares=look.diameter_squares)
+    colour = look.colour.in_white_light(white_balance(photo.rgb, board))
+    if colour_chroma(colour) < LEAST_CHROMA:
+        return ()
+    return find_candidates(photo.rgb, board, colour=colour, diameter_squares=look.diameter_squares)
 
 
 def _board_map(gray: FloatImage, board: BoardView) -> BoardMap:

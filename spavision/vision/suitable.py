@@ -57,5 +57,5 @@ def refuse_hopeless(observations: list[Observation], *, given_by_hand: bool) -> 
     if not given_by_hand and not any(o.candidates for o in observations):
         raise InputError(
             "no marker was found in any photograph; expected a round spot of the marker's colour "
-            "(--marker-colour, --marker-diameter-mm) near the tip"
+            "(--marker-colour, --marker-diameter-mm) near the tip, of another colour than the actuator"
         )

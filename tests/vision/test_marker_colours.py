@@ -49,7 +49,10 @@ def test_a_marker_of_the_actuators_own_colour_is_refused_not_guessed(tmp_path):
         worst_error_mm(rendered, marker_colour="green")
 
 
-def test_a_sample_of_the_paper_finds_nothing(plain_set):
-    for colour, message in (("#ffffff", "nearly grey"), ("#ffd9a8", "no marker")):
+def test_a_grey_is_refused_and_a_sample_of_paper_in_warm_light_finds_nothing(hard_set):
+    photo = read_photo(hard_set.paths[0]).rgb
+    red, green, blue = photo.reshape(-1, 3)[photo.sum(axis=2).argmax()].tolist()
+    assert red > blue + 20  # the light's own colour
+    for colour, message in (("#808080", "nearly grey"), (f"#{red:02x}{green:02x}{blue:02x}", "no marker")):
         with pytest.raises(InputError, match=message):
-            track(plain_set.paths[:1], [0.0], settings=plain_set.track_settings(marker_colour=colour))
+            track(hard_set.paths[:1], [0.0], settings=hard_set.track_settings(marker_colour=colour))

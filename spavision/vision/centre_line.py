@@ -24,10 +24,10 @@ LONE_EDGE = 0.3
 DAMPING = 1e-6
 """Keeps the equations solvable where a stretch of the line has no edge points."""
 
-EDGE_SIGMA_MM = 0.3
-"""Scatter of one edge point, twice what it is because neighbours share their squares."""
+EDGE_SIGMA_MM = 0.45
+"""Scatter of one edge point, about 0.2 mm, enlarged because some five neighbours share their squares."""
 
-HEADING_SIGMA_RAD = (np.inf, np.inf, np.inf, 0.05, 0.02, 0.01, 0.005)
+HEADING_SIGMA_RAD = (np.inf, np.inf, np.inf, 0.03, 0.01, 0.005, 0.003)
 """How large a Legendre coefficient of the heading is expected to be: ripples are unlikely, so noise does not
 make any; the first three, which are a curvature that changes evenly, are left free."""
 

@@ -121,10 +121,9 @@ class Profiles:
         window = centre[:, None] + place
         bare = self.expected[row, window] * self._shade(row, centre)
         contrast = self._inside(row, centre) - bare
-        size = np.minimum((contrast**2).sum(axis=-1), LARGEST_CONTRAST**2)
-        share = ((self.colours[row, window] - bare) * contrast).sum(axis=-1) / np.maximum(
-            (contrast**2).sum(axis=-1), 1.0
-        )
+        size = np.einsum("ijk,ijk->ij", contrast, contrast)
+        share = np.einsum("ijk,ijk->ij", self.colours[row, window] - bare, contrast) / np.maximum(size, 1.0)
+        size = np.minimum(size, LARGEST_CONTRAST**2)
         candidates = np.arange(-reach, reach + 1)
         blur = EDGE_BLUR_SQUARES / STEP_SQUARES
         model = ndtr((candidates[:, None] - place[None, :]) / blur)
@@ -146,7 +145,7 @@ class Profiles:
         first, last = (round(share / STEP_SQUARES) for share in SHADE_FROM_SQUARES)
         window = np.minimum(centre[:, None] + np.arange(first, last), len(self.offsets_mm) - 1)
         seen, bare = self.colours[row, window], self.expected[row, window]
-        shade = (seen * bare).sum(axis=(1, 2)) / np.maximum((bare**2).sum(axis=(1, 2)), 1.0)
+        shade = np.einsum("ijk,ijk->i", seen, bare) / np.maximum(np.einsum("ijk,ijk->i", bare, bare), 1.0)
         return np.asarray(median_filter(np.clip(shade, *SHADE_RANGE), SMOOTHED_LINES)[:, None, None])
 
     def _inside(self, row: IntArray, centre: IntArray) -> FloatArray:

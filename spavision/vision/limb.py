@@ -13,8 +13,11 @@ from .rectified import LARGEST_STRANGENESS, PIXELS_A_SQUARE
 STRANGE = 0.5 * LARGEST_STRANGENESS
 """Strangeness from which a pixel counts as not the board."""
 
-CLOSING_SQUARES = 1.25
+CLOSING_SQUARES = 1.75
 """Gaps up to this size are filled: a white layer over white squares looks like the board."""
+
+LARGEST_HOLE_SQUARES = 8.0
+"""Area of a hole that is filled, for the same reason."""
 
 START_REACH_SQUARES = 10.0
 FIRST_STEPS = 6
@@ -69,7 +72,9 @@ def silhouette_mask(strangeness: FloatImage) -> BoolArray:
     speckless = cv2.medianBlur(strange, 3)
     reach = round(CLOSING_SQUARES * PIXELS_A_SQUARE)
     closed = cv2.morphologyEx(speckless, cv2.MORPH_CLOSE, np.ones((reach, reach), np.uint8))
-    return np.asarray(closed, dtype=bool)
+    _, holes, sizes, _ = cv2.connectedComponentsWithStats(1 - closed)
+    small = sizes[:, cv2.CC_STAT_AREA] < LARGEST_HOLE_SQUARES * PIXELS_A_SQUARE**2
+    return np.asarray((closed > 0) | small[holes])
 
 
 def walk_limb(mask: BoolArray, rgb: FloatImage, marker: FloatArray) -> Limb:

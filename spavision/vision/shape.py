@@ -126,6 +126,8 @@ def _silhouette(
     marker_mm: FloatArray,
     body_width_mm: float,
 ) -> Silhouette:
+    sight = line_of_sight(pose, standoff_mm=_face_height_mm(track), body_width_mm=body_width_mm)
+    marker_on_board = sight.on_board(marker_mm)
     board = rectify(
         photo_rgb,
         track.camera,
@@ -133,13 +135,12 @@ def _silhouette(
         indices=reading.indices,
         corners_px=reading.corners_px,
         square_mm=track.square_mm,
+        around_mm=marker_on_board,
     )
     bare = None if board is None else imagine_bare(board)
     if board is None or bare is None:
-        raise UnclearError("too little of the board is seen")
-    sight = line_of_sight(pose, standoff_mm=_face_height_mm(track), body_width_mm=body_width_mm)
-    marker = board.to_pixels(sight.on_board(marker_mm))
-    limb = walk_limb(silhouette_mask(bare.strangeness), board.rgb, marker)
+        raise UnclearError("the marker does not hide the board, or too little of the board is seen")
+    limb = walk_limb(silhouette_mask(bare.strangeness), board.rgb, board.to_pixels(marker_on_board))
     return find_silhouette(board, bare, limb, sight)
 
 

@@ -104,7 +104,7 @@ def shape_notes(readings: Sequence[ShapeReading], *, expected_length_mm: float) 
     if rest and abs(rest[0].length_mm / expected_length_mm - 1.0) > LENGTH_TOLERANCE:
         notes.append(
             f"the actuator measures {rest[0].length_mm:.1f} mm at rest, clamp to tip, but "
-            f"{expected_length_mm:.1f} mm were expected: check the size of the board's squares (--square-mm), "
+            f"{expected_length_mm:.1f} mm were expected: check the size of the squares (--square-mm), "
             "or void_count and pitch_mm"
         )
     return tuple(notes)

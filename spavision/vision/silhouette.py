@@ -13,16 +13,16 @@ from .limb import STRANGE, Limb, UnclearError
 from .rectified import PIXELS_A_SQUARE, BareBoard, RectifiedBoard
 from .sight import Sight
 
-SEARCH_SQUARES = (2.0, 1.2, 0.8, 0.8)
+SEARCH_SQUARES = (3.0, 1.2, 0.8, 0.8)
 """How far from the last line's edge the edge is looked for, step by step."""
 
-SHOWS_BODY = 0.7
+SHOWS_BODY = 0.5
 """Share of body pixels over bright (or dark) squares that must be strange for such squares to tell."""
 
 BOUND_WEIGHT = 0.05
 """Say of a broken bound against that of a seen edge."""
 
-END_MARGIN_MM = 3.0
+END_MARGIN_MM = 2.0
 """Stretch at either end that is left out of the fit: rounded corners, the clamp's shadow."""
 
 CLAMP_SEARCH_SQUARES = 4.0

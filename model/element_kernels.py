@@ -85,6 +85,39 @@ def element_forces(
                         pressure_operator[e, m, i, a] += weight * g[i, a]
 
 
+@njit(cache=True, fastmath=_FAST)
+def _product_with_moduli(
+    i: int,
+    j: int,
+    moduli: FloatArray,
+    stress: FloatArray,
+    p: float,
+    volume: float,
+    g: FloatArray,
+    out: FloatArray,
+) -> None:
+    """Write A·g for the components i and j, with A = c_irjs + δ_ij τ_rs + p (δ_ir δ_js − δ_is δ_jr)."""
+    for r in range(3):
+        a0 = moduli[_VOIGT[i, r], _VOIGT[j, 0]]
+        a1 = moduli[_VOIGT[i, r], _VOIGT[j, 1]]
+        a2 = moduli[_VOIGT[i, r], _VOIGT[j, 2]]
+        if i == j:
+            a0 += stress[_VOIGT[r, 0]]
+            a1 += stress[_VOIGT[r, 1]]
+            a2 += stress[_VOIGT[r, 2]]
+        elif r == i:
+            # d(J F⁻ᵀ)·p; the two terms cancel where i = j
+            a0 += p if j == 0 else 0.0
+            a1 += p if j == 1 else 0.0
+            a2 += p if j == 2 else 0.0
+        elif r == j:
+            a0 -= p if i == 0 else 0.0
+            a1 -= p if i == 1 else 0.0
+            a2 -= p if i == 2 else 0.0
+        for b in range(out.shape[1]):
+            out[r, b] = volume * (a0 * g[0, b] + a1 * g[1, b] + a2 * g[2, b])
+
+
 @njit(cache=True, parallel=True, fastmath=_FAST)
 def element_tangents(
     gradients: FloatArray,
@@ -114,47 +147,31 @@ def element_tangents(
     """
     n_elements, n_points, _, n_nodes = gradients.shape
     n_modes = modes.shape[2]
+    # Rows filled up with zeros to whole vectors of the processor: the loops over b have no remainder.
+    n_padded = (n_nodes + 7) // 8 * 8
     for e in prange(n_elements):
-        g = np.empty((3, n_nodes))
-        t = np.empty((3, n_nodes))
-        tangents[e] = 0.0
+        g = np.zeros((n_points, 3, n_padded))
+        operator = np.zeros((n_modes, 3, n_padded))
+        t = np.empty((3, n_padded))
+        tile = np.empty((n_nodes, n_padded))
+        p = np.zeros(n_points)
         for q in range(n_points):
-            _spatial_gradients(F[e, q], J[e, q], gradients[e, q], g)
-            w = volumes[e, q]
-            p = 0.0
+            _spatial_gradients(F[e, q], J[e, q], gradients[e, q], g[q])
             for m in range(n_modes):
-                p += modes[e, q, m] * pressure[e, m]
-            p *= J[e, q]
-            c = moduli[e, q]
-            for block in range(6):
-                i, j = BLOCKS[block]
-                for r in range(3):
-                    a0 = c[_VOIGT[i, r], _VOIGT[j, 0]]
-                    a1 = c[_VOIGT[i, r], _VOIGT[j, 1]]
-                    a2 = c[_VOIGT[i, r], _VOIGT[j, 2]]
-                    if i == j:
-                        a0 += stress[e, q, _VOIGT[r, 0]]
-                        a1 += stress[e, q, _VOIGT[r, 1]]
-                        a2 += stress[e, q, _VOIGT[r, 2]]
-                    elif r == i:
-                        # d(J F⁻ᵀ)·p: +p δ_ir δ_js − p δ_is δ_jr; the two cancel where i = j
-                        a0 += p if j == 0 else 0.0
-                        a1 += p if j == 1 else 0.0
-                        a2 += p if j == 2 else 0.0
-                    elif r == j:
-                        a0 -= p if i == 0 else 0.0
-                        a1 -= p if i == 1 else 0.0
-                        a2 -= p if i == 2 else 0.0
-                    for b in range(n_nodes):
-                        t[r, b] = w * (a0 * g[0, b] + a1 * g[1, b] + a2 * g[2, b])
-                for a in range(n_nodes):
-                    g0, g1, g2 = g[0, a], g[1, a], g[2, a]
-                    for b in range(n_nodes):
-                        tangents[e, block, a, b] += g0 * t[0, b] + g1 * t[1, b] + g2 * t[2, b]
+                p[q] += J[e, q] * modes[e, q, m] * pressure[e, m]
+        operator[:, :, :n_nodes] = pressure_operator[e]
         for block in range(6):
             i, j = BLOCKS[block]
+            tile[:] = 0.0
+            for q in range(n_points):
+                _product_with_moduli(i, j, moduli[e, q], stress[e, q], p[q], volumes[e, q], g[q], t)
+                for a in range(n_nodes):
+                    g0, g1, g2 = g[q, 0, a], g[q, 1, a], g[q, 2, a]
+                    for b in range(n_padded):
+                        tile[a, b] += g0 * t[0, b] + g1 * t[1, b] + g2 * t[2, b]
             for m in range(n_modes):
                 for a in range(n_nodes):
-                    factor = bulk_modulus[e] * pressure_operator[e, m, i, a]
-                    for b in range(n_nodes):
-                        tangents[e, block, a, b] += factor * pressure_operator[e, m, j, b]
+                    factor = bulk_modulus[e] * operator[m, i, a]
+                    for b in range(n_padded):
+                        tile[a, b] += factor * operator[m, j, b]
+            tangents[e, block] = tile[:, :n_nodes]

@@ -14,6 +14,8 @@ COALESCENCE = 1e-5
 """Log stretches closer than this are taken as equal in the moduli, an error of its square."""
 
 _SWEEPS = 12
+_NEGLIGIBLE = 1e-13
+"""Off-diagonal parts that are left over; their effect on the stress is of their order."""
 _FAST = {"contract", "reassoc", "nsz", "arcp"}
 
 
@@ -29,7 +31,7 @@ def symmetric_eigen(matrix: FloatArray, vectors: FloatArray) -> None:
             vectors[i, j] = 1.0 if i == j else 0.0
     for _ in range(_SWEEPS):
         off = abs(matrix[0, 1]) + abs(matrix[0, 2]) + abs(matrix[1, 2])
-        if off < 1e-17 * (abs(matrix[0, 0]) + abs(matrix[1, 1]) + abs(matrix[2, 2])):
+        if off < _NEGLIGIBLE * (abs(matrix[0, 0]) + abs(matrix[1, 1]) + abs(matrix[2, 2])):
             return
         for p in range(2):
             for q in range(p + 1, 3):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -10,16 +10,21 @@ from spavision.errors import InputError
 from spavision.tip_path import TipPath
 
 from .actuator_problem import actuator_problem
-from .continuation import RampStoppedError, pressure_ramp, settle_under_gravity
+from .continuation import AcceptedStep, RampStoppedError, pressure_ramp, settle_under_gravity
 from .elements import FloatArray
+from .equilibrium import Equilibrium
 from .geometry import ActuatorGeometry
 from .hex_mesh import HexMesh
 from .journal import Journal
-from .linear_solver import linear_solver
+from .linear_solver import LinearSolver, linear_solver
+from .newton import NewtonResult
 from .observe import centre_line, locate
 from .simulation import Simulation, SimulationSettings, StepRecord
+from .volume_control import volume_ramp
 
 __all__ = ["Simulation", "SimulationSettings", "StepRecord", "simulate"]
+
+CONTROLS = ("pressure", "volume")
 
 LARGEST_PRESSURE_KPA = 500.0
 """Pressures beyond this are taken for a slip of the unit."""
@@ -58,6 +63,8 @@ def simulate(
     """
     settings = settings or SimulationSettings()
     pressures = _checked_pressures(pressures_kPa)
+    if settings.control not in CONTROLS:
+        raise InputError(f"control is {settings.control!r}, expected one of {', '.join(CONTROLS)}")
     problem = actuator_problem(geometry, crimp_ratio=crimp_ratio, settings=settings)
     solver = linear_solver()
     journal = Journal(problem, pressures, progress)
@@ -67,15 +74,7 @@ def simulate(
             problem, gravity=settings.gravity, solver=solver, newton=settings.newton
         )
         journal.begin(hanging)
-        for step in pressure_ramp(
-            problem,
-            hanging,
-            targets_kPa=pressures[pressures > 0.0],
-            gravity=settings.gravity,
-            solver=solver,
-            newton=settings.newton,
-            stepping=settings.stepping,
-        ):
+        for step in _ramp(problem, hanging, pressures[pressures > 0.0], settings=settings, solver=solver):
             journal.add(step)
     except RampStoppedError as error:
         stop = error
@@ -92,6 +91,36 @@ def simulate(
         stopped_at_kPa=stop.pressure_kPa if stop else None,
         stop_reason=stop.reason if stop else "",
         solver_name=solver.name,
+    )
+
+
+def _ramp(
+    problem: Equilibrium,
+    hanging: NewtonResult,
+    targets_kPa: FloatArray,
+    *,
+    settings: SimulationSettings,
+    solver: LinearSolver,
+) -> Iterator[AcceptedStep]:
+    """Inflate under the control asked for."""
+    if settings.control == "volume":
+        return volume_ramp(
+            problem,
+            hanging,
+            targets_kPa=targets_kPa,
+            gravity=float(settings.gravity),
+            solver=solver,
+            newton=settings.newton,
+            stepping=settings.volume_stepping,
+        )
+    return pressure_ramp(
+        problem,
+        hanging,
+        targets_kPa=targets_kPa,
+        gravity=settings.gravity,
+        solver=solver,
+        newton=settings.newton,
+        stepping=settings.stepping,
     )
 
 

@@ -12,6 +12,7 @@ from .elements import FloatArray
 from .geometry import ActuatorGeometry
 from .hex_mesh import HexMesh
 from .newton import NewtonSettings
+from .volume_control import VolumeStepping
 
 RAMP_NEWTON = NewtonSettings(
     residual_tolerance=5e-5, correction_tolerance_mm=5e-3, reuse_below_mm=0.05, max_iterations=12
@@ -38,6 +39,10 @@ class SimulationSettings:
         Bulk over initial shear modulus of every silicone (assumed: nearly incompressible).
     newton : NewtonSettings
     stepping : SteppingSettings
+    control : str
+        ``pressure``, or ``volume``: the enclosed volume is stepped, which passes limit points. The asked
+        pressures are then met where the path first rises through them.
+    volume_stepping : VolumeStepping
     """
 
     mesh_level: str = "default"
@@ -50,6 +55,8 @@ class SimulationSettings:
     bulk_to_shear: float = 1000.0
     newton: NewtonSettings = RAMP_NEWTON
     stepping: SteppingSettings = field(default_factory=SteppingSettings)
+    control: str = "pressure"
+    volume_stepping: VolumeStepping = field(default_factory=VolumeStepping)
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,10 @@ import numpy as np
 
 from .continuation import AcceptedStep, RampStoppedError
 from .elements import FloatArray
-from .equilibrium import Equilibrium, Load, State
+from .equilibrium import Equilibrium
 from .linear_solver import LinearSolver, SingularTangentError
 from .newton import NewtonResult, NewtonSettings, NotConvergedError, find_equilibrium
+from .state import Load, State, combine
 
 _GROWTH_OF_EASY_STEP = 1.5
 _EASY_ITERATIONS = 5
@@ -226,14 +227,7 @@ def _at_pressure(low: VolumePoint, high: VolumePoint, pressure_MPa: float) -> St
 
 
 def _between(first: VolumePoint, second: VolumePoint, fraction: float) -> VolumePoint:
-    def blend(a: FloatArray, b: FloatArray) -> FloatArray:
-        return a + fraction * (b - a)
-
-    one, other = first.result.state, second.result.state
-    state = State(blend(one.displacement, other.displacement), blend(one.pressure, other.pressure))
-    return VolumePoint(
-        volume_mm3=first.volume_mm3 + fraction * (second.volume_mm3 - first.volume_mm3),
-        gas_pressure_MPa=first.gas_pressure_MPa
-        + fraction * (second.gas_pressure_MPa - first.gas_pressure_MPa),
-        result=NewtonResult(state, 0, (), None),
-    )
+    state = combine((1.0 - fraction, fraction), (first.result.state, second.result.state))
+    volume = first.volume_mm3 + fraction * (second.volume_mm3 - first.volume_mm3)
+    pressure = first.gas_pressure_MPa + fraction * (second.gas_pressure_MPa - first.gas_pressure_MPa)
+    return VolumePoint(volume, pressure, NewtonResult(state, 0, (), None))

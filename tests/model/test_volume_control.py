@@ -5,11 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from spavision.errors import InputError
 from spavision.model.continuation import RampStoppedError, SteppingSettings, pressure_ramp
 from spavision.model.elements import FloatArray
 from spavision.model.equilibrium import Equilibrium, Load
+from spavision.model.geometry import ActuatorGeometry
 from spavision.model.linear_solver import linear_solver
 from spavision.model.newton import NewtonResult, find_equilibrium
+from spavision.model.simulate import SimulationSettings, simulate
 from spavision.model.verification.bodies import NEO_HOOKE, solid, sphere
 from spavision.model.verification.solving import TIGHT
 from spavision.model.volume_control import VolumePoint, VolumeStepping, volume_path, volume_ramp
@@ -100,3 +103,28 @@ def test_asked_pressures_are_met_exactly(balloon: Equilibrium) -> None:
     residual = balloon.balance(last.result.state, Load(targets[-1] * 1e-3, 0.0))
     assert residual is not None
     assert residual.relative_residual < 1e-8
+
+
+def test_actuator_under_either_control() -> None:
+    """Where the path is stable, both controls find the same equilibria."""
+    paths = [
+        simulate(
+            ActuatorGeometry(void_count=2),
+            crimp_ratio=0.2,
+            pressures_kPa=np.array([0.0, 15.0, 40.0]),
+            settings=SimulationSettings(mesh_level="draft", control=control),
+        ).tip_path
+        for control in ("pressure", "volume")
+    ]
+    assert paths[1].status == ("ok",) * 3
+    np.testing.assert_allclose(paths[0].ux_mm, paths[1].ux_mm, atol=1e-3)
+
+
+def test_unknown_control() -> None:
+    with pytest.raises(InputError, match=r"'force'.*pressure, volume"):
+        simulate(
+            ActuatorGeometry(void_count=2),
+            crimp_ratio=0.2,
+            pressures_kPa=np.array([0.0]),
+            settings=SimulationSettings(control="force"),
+        )

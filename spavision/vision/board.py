@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,11 +10,15 @@ from .adjustment import Adjustment, Priors
 from .arrays import FloatArray, FloatImage, IntArray, shrink, shrunk_place
 from .camera import Camera, Pose, project
 from .lattice import grow_lattice
-from .refill import Corners, drop_outliers, guided_refill
-from .saddles import find_candidates, refine
+from .refill import FIT_CORNERS, Corners, drop_outliers, expected_corners, fit_corners, guided_refill
+from .saddle_fit import fit_saddles
+from .saddles import find_candidates
 from .spectra import LatticeField, fit_field, pitch_votes, tile_spectra
 
 FEWEST_CORNERS = 20
+COMFORTABLE_PITCH_PX = 6.5
+"""Among scales that show the same lattice, the one with squares of this size or a little more is the best."""
+
 LARGEST_RMS_SQUARES = 0.06
 TYPICAL_FOCAL_WIDTHS = 1.2
 """Focal length of a common camera over the photograph's longer side: a start value and a weak prior."""
@@ -86,7 +90,7 @@ def _scales(gray: FloatImage) -> list[tuple[float, FloatImage, LatticeField]]:
         for pitch, share in pitch_votes(tiles)[:2]:
             field = fit_field(tiles, pitch)
             if field is not None:
-                found.append((share, factor, small, field))
+                found.append((share * min(1.0, pitch / COMFORTABLE_PITCH_PX), factor, small, field))
         factor /= 2.0
         small = shrink(small, 0.5)
     found.sort(key=lambda item: -item[0])
@@ -117,12 +121,13 @@ def _complete(gray: FloatImage, small: FloatImage, factor: float, corners: Corne
     corners = guided_refill(small, corners, provisional_priors(small.shape[1], small.shape[0]))
     if len(corners.indices) < FEWEST_CORNERS:
         return None
-    if factor < 1.0:
-        start = shrunk_place(corners.pixels, 1.0 / factor)
-        pixels = refine(gray, start, corners.pitch_px() / factor)
-        found = np.isfinite(pixels).all(axis=1)
-        corners = Corners(corners.indices[found], pixels[found], corners.contrast)
     priors = provisional_priors(gray.shape[1], gray.shape[0])
+    if factor < 1.0:
+        corners = replace(corners, pixels=shrunk_place(corners.pixels, 1.0 / factor))
+        fit = fit_corners(corners, priors, largest=FIT_CORNERS)
+        _, vectors = expected_corners(fit.camera, fit.poses[0], corners.indices)
+        pixels = fit_saddles(gray, corners.pixels, *vectors)
+        corners = replace(corners, pixels=pixels).take(np.isfinite(pixels).all(axis=1))
     corners, fit = drop_outliers(corners, priors)
     if fit is None or len(corners.indices) < FEWEST_CORNERS:
         return None

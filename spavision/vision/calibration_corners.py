@@ -9,9 +9,9 @@ import numpy as np
 
 from .arrays import FloatArray, FloatImage, IntArray, blur
 from .board import find_board
-from .grid import median_pitch
 from .refill import expected_corners
-from .saddles import refine, ring_test
+from .saddle_fit import fit_saddles
+from .saddles import ring_test
 
 OPENCV_WINDOW_PX = 11
 """Half width of the sub-pixel window in OpenCV's calibration sample, whatever the size of the squares."""
@@ -58,7 +58,7 @@ def lattice_corners(gray: FloatImage, corners: tuple[int, int] | None) -> BoardC
     """Find a board, whole or in part, by the tracker's lattice; None where there is none.
 
     Boards of too few corners for a lattice are left to OpenCV's detector when their size is known; the
-    sub-pixel window is scaled to the squares in both cases.
+    sub-pixel fit is scaled to the squares in both cases.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ def lattice_corners(gray: FloatImage, corners: tuple[int, int] | None) -> BoardC
     if found is None and corners is not None:
         found = _whole_board(gray, corners)
         if found is not None:
-            pixels = refine(gray, found.pixels, median_pitch(found.indices, found.pixels))
+            pixels = fit_saddles(gray, found.pixels, *_lattice_vectors(found))
             seen = np.isfinite(pixels).all(axis=1)
             found = BoardCorners(found.indices[seen], pixels[seen])
     return found
@@ -119,8 +119,7 @@ def within_board(found: BoardCorners, corners: tuple[int, int]) -> BoardCorners 
 def _lattice(gray: FloatImage) -> BoardCorners | None:
     """Find the lattice as the tracker does, measure its corners anew and complete its border.
 
-    A tilted board's squares differ in size: each corner gets a window of its own. The tracker drops what one
-    photograph's fit does not explain; several photographs explain more.
+    The tracker drops what one photograph's fit does not explain; several photographs explain more.
     """
     board = find_board(gray)
     if board is None:
@@ -131,7 +130,7 @@ def _lattice(gray: FloatImage) -> BoardCorners | None:
     nodes = nodes.reshape(-1, 2)
     expected, vectors = expected_corners(board.camera, board.pose, nodes)
     pitch = np.minimum(*(np.linalg.norm(vector, axis=1) for vector in vectors))
-    pixels = _refine_locally(gray, expected, pitch)
+    pixels = fit_saddles(gray, expected, *vectors)
     parity, quality, contrast = ring_test(
         blur(gray, max(0.1 * board.pitch_px, 0.5)), np.nan_to_num(pixels, nan=-1e3), vectors
     )
@@ -142,14 +141,18 @@ def _lattice(gray: FloatImage) -> BoardCorners | None:
     return BoardCorners(nodes[old | new], pixels[old | new])
 
 
-def _refine_locally(gray: FloatImage, pixels: FloatArray, pitch_px: FloatArray) -> FloatArray:
-    """Refine each corner in a window scaled to the squares about it; NaN where none is found."""
-    refined = np.full_like(pixels, np.nan)
-    classes = np.maximum(np.rint(pitch_px), 1.0)
-    for pitch in np.unique(classes):
-        rows = np.flatnonzero(classes == pitch)
-        refined[rows] = refine(gray, pixels[rows], float(pitch))
-    return refined
+def _lattice_vectors(found: BoardCorners) -> tuple[FloatArray, FloatArray]:
+    """Lattice vectors at each corner, right and down, from the homography through all of them."""
+    plane = found.indices.astype(float)
+    homography, _ = cv2.findHomography(plane, found.pixels)
+
+    def place(points: FloatArray) -> FloatArray:
+        return np.asarray(cv2.perspectiveTransform(points[None], homography)[0], dtype=float)
+
+    one, other = (place(plane + step) - place(plane - step) for step in ([0.5, 0.0], [0.0, 0.5]))
+    if abs(np.median(one[:, 0])) < abs(np.median(other[:, 0])):
+        one, other = other, one
+    return one * np.sign(np.median(one[:, 0])), other * np.sign(np.median(other[:, 1]))
 
 
 def _whole_board(gray: FloatImage, corners: tuple[int, int]) -> BoardCorners | None:

@@ -116,11 +116,15 @@ def colour_strength(rgb: RgbImage, levels: tuple[FloatArray, FloatArray], target
     target : tuple of int
         Marker colour in white light, sRGB.
     """
-    lab = _lab(_balanced(rgb.astype(np.float32), levels))
-    _, a, b = _lab(np.array([[target]], np.float32) / 255.0)[0, 0]
-    along = (lab[:, :, 1] * a + lab[:, :, 2] * b) / np.hypot(a, b)
-    across = (lab[:, :, 2] * a - lab[:, :, 1] * b) / np.hypot(a, b)
-    return along - FOREIGN_HUE_COST * np.abs(across)
+    every_level = np.repeat(np.arange(256, dtype=np.float32)[:, None, None], 3, axis=2)
+    table = np.rint(255.0 * _balanced(every_level, levels)).astype(np.uint8)
+    # In whole numbers this takes a tenth of the time; they are finer than any camera's noise.
+    lab = cv2.cvtColor(cv2.LUT(rgb, table), cv2.COLOR_RGB2LAB)
+    _, a, b = _lab(np.array([[target]], np.float32) / 255.0)[0, 0] / colour_chroma(target)
+    green_red, blue_yellow = (lab[:, :, channel].astype(np.float32) - 128.0 for channel in (1, 2))
+    strength: FloatImage = green_red * a + blue_yellow * b
+    strength -= FOREIGN_HUE_COST * np.abs(blue_yellow * a - green_red * b)
+    return strength
 
 
 def _balanced(rgb: FloatImage, levels: tuple[FloatArray, FloatArray]) -> FloatImage:

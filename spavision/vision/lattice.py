@@ -73,20 +73,20 @@ def _mutual_links(
 def _spread(graph: coo_matrix, first: IntArray, second: IntArray, step: IntArray, *, root: int) -> IntArray:
     """Return the indices of every node reached from ``root`` along the minimum spanning tree."""
     n = graph.shape[0]
-    order, before = breadth_first_order(minimum_spanning_tree(graph), root, directed=False)
-    step_between = {(a, b): s for a, b, s in zip(first.tolist(), second.tolist(), step.tolist(), strict=True)}
+    order, parent = breadth_first_order(minimum_spanning_tree(graph), root, directed=False)
+    keys = np.concatenate([first * n + second, second * n + first])
+    steps = np.concatenate([step, -step])
+    sorting = np.argsort(keys, kind="stable")
+    child = order[1:].astype(np.intp)
+    link = sorting[np.searchsorted(keys[sorting], parent[child] * n + child)]
     indices = np.zeros((n, 2), dtype=np.intp)
-    placed: dict[int, tuple[int, int]] = {root: (0, 0)}
-    for node in order[1:].tolist():
-        parent = int(before[node])
-        column, row = placed[parent]
-        if (parent, node) in step_between:
-            dc, dr = step_between[parent, node]
-        else:
-            dc, dr = (-value for value in step_between[node, parent])
-        placed[node] = (column + dc, row + dr)
-    nodes = np.fromiter(placed, dtype=np.intp)
-    indices[nodes] = np.array(list(placed.values()), dtype=np.intp)
+    indices[child] = steps[link]
+    # Each node's index is the sum of the steps on its way to the root: double the way until all are there.
+    towards = np.full(n, root, dtype=np.intp)
+    towards[child] = parent[child]
+    while (towards[order] != root).any():
+        indices += indices[towards]
+        towards = towards[towards]
     return indices
 
 

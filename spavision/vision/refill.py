@@ -11,7 +11,8 @@ from .adjustment import Adjustment, Priors, View, adjust
 from .arrays import BoolArray, FloatArray, FloatImage, IntArray, blur
 from .camera import Camera, Pose, project
 from .grid import median_pitch, spread_subset
-from .saddles import refine, ring_test
+from .saddle_fit import fit_saddles
+from .saddles import ring_test
 
 FIT_CORNERS = 1500
 """Corners that enter a fit on the way."""
@@ -19,12 +20,18 @@ FIT_CORNERS = 1500
 FINAL_CORNERS = 5000
 """Corners that enter the last fit."""
 
-FRONTIER_SQUARES = 6
-"""How far beyond known corners the lattice is extended at a time."""
+FRONTIER_SQUARES = (6, 12, 24, 48)
+"""How far beyond known corners the lattice is extended: farther once nothing is gained near by."""
+
+LEAST_GAIN = 0.003
+"""Share of new corners below which the search goes farther out, or ends."""
 
 LOWEST_QUALITY = 0.62
 LOWEST_CONTRAST = 0.25
 LARGEST_STEP_SQUARES = 0.2
+
+LEAST_GATE_PX = 0.15
+"""A corner this near its expected place stays: the fit on the way is no better than that itself."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +64,8 @@ def guided_refill(gray: FloatImage, corners: Corners, priors: Priors) -> Corners
     """Extend a grown lattice over the whole board.
 
     The lattice is projected a few squares beyond what is known, refined there, gated by ring test, colour
-    parity and distance from its expected place, and the model is fitted again, until nothing is gained.
+    parity and distance from its expected place, and the model is fitted again. When little is gained, the
+    search goes farther out: across an actuator or a cable that splits the board in two.
 
     Parameters
     ----------
@@ -72,24 +80,26 @@ def guided_refill(gray: FloatImage, corners: Corners, priors: Priors) -> Corners
     pitch = corners.pitch_px()
     tested = blur(gray, max(0.1 * pitch, 0.5))
     corners, fit = drop_outliers(corners, cautious)
-    tried: set[tuple[int, int]] = set()
-    for _ in range(12):
-        if fit is None:
+    tried = np.zeros((0, 2), dtype=np.intp)
+    reaches = iter(FRONTIER_SQUARES)
+    reach = next(reaches)
+    for _ in range(16):
+        if fit is None or reach == 0:
             break
-        nodes = _frontier(corners.indices, tried)
-        if len(nodes) == 0:
-            break
-        tried.update(map(tuple, nodes.tolist()))
+        nodes = _frontier(corners.indices, tried, reach)
+        tried = np.concatenate([tried, nodes])
         found = _measure(gray, tested, nodes, fit, corners, pitch)
-        if len(found.indices) == 0:
-            break
         joined = replace(
             corners,
             indices=np.concatenate([corners.indices, found.indices]),
             pixels=np.concatenate([corners.pixels, found.pixels]),
         )
-        gained = len(found.indices) > 0.02 * len(corners.indices)
-        corners, fit = drop_outliers(joined, cautious if gained else priors, start=fit)
+        gain = len(found.indices) / len(corners.indices)
+        corners = joined
+        if gain < LEAST_GAIN:
+            reach = next(reaches, 0)
+        else:
+            corners, fit = drop_outliers(joined, cautious if gain > 0.02 else priors, start=fit)
     return corners
 
 
@@ -104,23 +114,22 @@ def drop_outliers(
         fit = fit_corners(corners, priors, largest=largest, start=fit)
         expected = project(fit.camera, fit.poses[0], corners.indices.astype(float))
         error = np.linalg.norm(corners.pixels - expected, axis=1)
-        corners = corners.take(error < max(4.0 * fit.sigma_px, 0.05))
+        corners = corners.take(error < max(4.0 * fit.sigma_px, LEAST_GATE_PX))
         corners = corners.take(_has_neighbours(corners.indices))
     return corners, fit
 
 
-def _frontier(indices: IntArray, tried: set[tuple[int, int]]) -> IntArray:
-    """Lattice nodes within `FRONTIER_SQUARES` of a known corner that are neither known nor tried."""
-    lowest = indices.min(axis=0) - FRONTIER_SQUARES
-    size = indices.max(axis=0) + FRONTIER_SQUARES + 1 - lowest
+def _frontier(indices: IntArray, tried: IntArray, reach: int) -> IntArray:
+    """Lattice nodes within ``reach`` squares of a known corner that are neither known nor tried."""
+    lowest = indices.min(axis=0) - reach
+    size = indices.max(axis=0) + reach + 1 - lowest
     known = np.zeros((size[1], size[0]), dtype=np.uint8)
     known[indices[:, 1] - lowest[1], indices[:, 0] - lowest[0]] = 1
-    reach = 2 * FRONTIER_SQUARES + 1
-    near = cv2.dilate(known, np.ones((reach, reach), np.uint8)) > known
+    near = cv2.dilate(known, np.ones((2 * reach + 1, 2 * reach + 1), np.uint8)) > known
     rows, columns = np.nonzero(near)
     nodes = np.column_stack([columns, rows]) + lowest
-    fresh = [k for k, node in enumerate(map(tuple, nodes.tolist())) if node not in tried]
-    return nodes[fresh]
+    stride = 1 << 20
+    return nodes[~np.isin(nodes @ [1, stride], tried @ [1, stride])]
 
 
 def _measure(
@@ -144,7 +153,7 @@ def _measure(
     nodes, expected, across, down = nodes[visible], expected[visible], across[visible], down[visible]
     if len(nodes) == 0:
         return replace(corners, indices=nodes, pixels=expected)
-    pixels = refine(gray, expected, pitch)
+    pixels = fit_saddles(gray, expected, across, down)
     pixels = np.where(np.isfinite(pixels), pixels, -1e6)
     near = np.linalg.norm(pixels - expected, axis=1) < LARGEST_STEP_SQUARES * pitch
     nodes, pixels, across, down = nodes[near], pixels[near], across[near], down[near]

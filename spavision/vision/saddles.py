@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .arrays import BoolArray, FloatArray, FloatImage, IntArray, blur, sample
+from .saddle_fit import fit_saddles
 from .spectra import LatticeField
 
 RING_SAMPLES = 24
@@ -17,9 +18,6 @@ RING_RADII = (0.28, 0.42)
 
 WORST_QUADRANT = 0.2
 """Least brightness difference of any one quadrant, over that of all four."""
-
-WINDOW_SQUARES = 0.3
-"""Half width of the sub-pixel window, in squares."""
 
 
 @dataclass(frozen=True)
@@ -71,35 +69,6 @@ def find_saddles(gray: FloatImage, pitch_px: float) -> FloatArray:
     peaks[:, :border] = peaks[:, -border:] = False
     rows, columns = np.nonzero(peaks)
     return np.column_stack([columns, rows]).astype(float)
-
-
-def refine(gray: FloatImage, pixels: FloatArray, pitch_px: float) -> FloatArray:
-    """Refine corners to sub-pixel positions within a window of `WINDOW_SQUARES` about each.
-
-    A corner is the point to which every gradient in its window is perpendicular (Förstner; OpenCV's
-    ``cornerSubPix``). Corners that leave their window come back as NaN.
-    """
-    if len(pixels) == 0:
-        return pixels.reshape(0, 2)
-    half = max(2, round(WINDOW_SQUARES * pitch_px))
-    height, width = gray.shape
-    margin = half + 2
-    inside = (
-        (pixels[:, 0] > margin)
-        & (pixels[:, 0] < width - 1 - margin)
-        & (pixels[:, 1] > margin)
-        & (pixels[:, 1] < height - 1 - margin)
-    )
-    refined = np.full_like(pixels, np.nan)
-    if not inside.any():
-        return refined
-    start = np.ascontiguousarray(pixels[inside], dtype=np.float32).reshape(-1, 1, 2)
-    criteria = (cv2.TERM_CRITERIA_COUNT | cv2.TERM_CRITERIA_EPS, 30, 0.002)
-    found = cv2.cornerSubPix(gray, start.copy(), (half, half), (-1, -1), criteria).reshape(-1, 2)
-    moved = np.linalg.norm(found - start.reshape(-1, 2), axis=1)
-    found[moved > half] = np.nan
-    refined[inside] = found
-    return refined
 
 
 def ring_test(
@@ -155,7 +124,8 @@ def ring_test(
 def find_candidates(gray: FloatImage, field: LatticeField) -> Candidates:
     """Find all corner candidates of an image whose lattice field is known."""
     pitch = field.pitch_px
-    pixels = refine(gray, find_saddles(gray, pitch), pitch)
+    saddles = find_saddles(gray, pitch)
+    pixels = fit_saddles(gray, saddles, *field.vectors(saddles))
     pixels = pixels[np.isfinite(pixels).all(axis=1)]
     tested = blur(gray, max(0.1 * pitch, 0.5))
     parity, quality, contrast = ring_test(tested, pixels, field.vectors(pixels))

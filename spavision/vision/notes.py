@@ -10,6 +10,12 @@ from .readings import base_motion_mm
 from .scale import CameraFit
 from .settings import TrackSettings
 
+UNLIKELY_SIGMAS = 5.0
+"""Standard uncertainties by which a given length may be off before it is called in question."""
+
+LARGEST_DIAMETER_ERROR = 0.15
+"""Relative error of a marker's size that its soft edge explains."""
+
 
 def correction_text(fit: CameraFit, settings: TrackSettings, factor: float) -> str:
     """One sentence on the parallax correction."""
@@ -40,17 +46,44 @@ def track_notes(evidence: Evidence, places: Places) -> tuple[str, ...]:
     if places.reference > 0:
         name = observations[places.reference].name
         notes.append(f"{name} is the reference, because no lower pressure has a reading")
-    moved = [o.name for o, number in zip(observations, stations.number, strict=True) if number > 0]
+    rows = zip(observations, stations.number, places.tip, strict=True)
+    moved = [o.name for o, number, place in rows if number > 0 and place is not None]
     if moved:
         notes.append(
             f"the camera moved against the reference photo in {', '.join(moved)}; this was taken into account"
         )
+    notes += _contradictions(evidence, places)
     notes += _base_marker_note(evidence, places)
     notes += _by_hand_note(evidence)
     unread = sum(place is None for place in places.tip)
     if unread:
         notes.append(f"{unread} of {len(places.tip)} photographs gave no reading")
     return tuple(notes)
+
+
+def _contradictions(evidence: Evidence, places: Places) -> list[str]:
+    """Say where what was given and what is seen exclude each other."""
+    fit, settings = evidence.fit, evidence.settings
+    notes = []
+    given = settings.distance_mm
+    if (
+        fit.source == "given"
+        and given is not None
+        and abs(fit.distance_mm - given) > UNLIKELY_SIGMAS * settings.sigma_distance_mm
+    ):
+        notes.append(
+            f"the board's perspective speaks for a camera at {fit.distance_mm:.0f} mm against the "
+            f"{given:g} mm that were given: check the distance, the square size, and that all photos are of "
+            "one set-up"
+        )
+    diameter = settings.marker_diameter_mm
+    found = None if places.radius_mm is None else 2.0 * places.radius_mm
+    if diameter is not None and found is not None and abs(found / diameter - 1.0) > LARGEST_DIAMETER_ERROR:
+        notes.append(
+            f"the marker measures {found:.2f} mm against the {diameter:g} mm that were given: "
+            "check the marker, the square size and the stand-off"
+        )
+    return notes
 
 
 def _base_marker_note(evidence: Evidence, places: Places) -> list[str]:

@@ -82,6 +82,10 @@ class Observation:
     base_candidates: tuple[Candidate, ...] = ()
     map: BoardMap | None = None
 
+    def set_aside(self, problem: str) -> Observation:
+        """Return the photograph without what was measured in it, and why."""
+        return Observation(self.name, problem, self.width, self.height, self.focal_px)
+
 
 def observe(
     path: Path, *, tip: MarkerLook, base: MarkerLook | None, largest_megapixels: float

@@ -64,6 +64,8 @@ def _status(evidence: Evidence, places: Places, photo: int) -> tuple[str, str]:
         return "rejected", remark
     if observation.problem:
         return "missing", observation.problem
+    if not places.base and evidence.stations.certainty[photo] < SMALLEST_CERTAINTY:
+        return "missing", "camera moved, and nothing tells by how many squares: show the board's rim"
     if places.base and places.base[photo] is None:
         return "missing", "base marker not found, so its motion cannot be taken off"
     if place is None:
@@ -73,9 +75,6 @@ def _status(evidence: Evidence, places: Places, photo: int) -> tuple[str, str]:
     base = places.base[photo] if places.base else None
     if base is not None and base.partial:
         return "partial", f"{100 * base.circle.coverage:.0f} % of the base marker's rim is seen"
-    if evidence.stations.certainty[photo] < SMALLEST_CERTAINTY:
-        moved = "camera moved and the board's shift is uncertain"
-        return "partial", f"{moved}; {remark}" if remark else moved
     return "ok", remark
 
 

@@ -57,8 +57,8 @@ def register(reference: Observation, other: Observation) -> Registration:
     spread = float(np.median(np.linalg.norm(offset - middle, axis=1)))
     nearest = np.rint(middle).astype(np.intp)
     still = spread < 0.08 and float(np.abs(middle - nearest).max()) < 0.12 and nearest.sum() % 2 == 0
-    one_map, other_map = _levelled(reference.map), _levelled(other.map)
-    costs = _disagreements(one_map, other_map)
+    one_map, other_map = levelled(reference.map), levelled(other.map)
+    costs = disagreements(one_map, other_map)
     best = min(costs, key=lambda shift: costs[shift])
     rivals = sorted((shift for shift in costs if shift != best), key=lambda shift: costs[shift])
     if still and costs.get((int(nearest[0]), int(nearest[1])), np.inf) < 1.3 * costs[best]:
@@ -89,8 +89,8 @@ def same_position(first: BoardView, second: BoardView, shift: IntArray) -> bool:
     return bool(np.abs(design @ coefficients).max() < STILL_PX + error)
 
 
-def _disagreements(reference: BoardMap, other: BoardMap) -> dict[tuple[int, int], float]:
-    """Mean disagreement of the two maps for every shift that keeps the colour of squares."""
+def disagreements(reference: BoardMap, other: BoardMap) -> dict[tuple[int, int], float]:
+    """Return the mean disagreement of two maps for every shift that keeps the colour of squares."""
     reach = range(-WIDEST_SHIFT_SQUARES, WIDEST_SHIFT_SQUARES + 1)
     costs = {}
     for shift in ((dx, dy) for dy in reach for dx in reach if (dx + dy) % 2 == 0):
@@ -127,6 +127,6 @@ def _certainty(reference: BoardMap, other: BoardMap, best: tuple[int, int], riva
     return float(sums.sum() / max(np.sqrt((sums**2).sum()), 1e-9))
 
 
-def _levelled(board_map: BoardMap) -> BoardMap:
-    """Brightness over the board's typical brightness: exposure drops out."""
+def levelled(board_map: BoardMap) -> BoardMap:
+    """Return a map of brightness over the board's typical brightness: exposure drops out."""
     return replace(board_map, values=board_map.values / max(float(np.nanmedian(board_map.values)), 1.0))

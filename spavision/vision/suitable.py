@@ -3,31 +3,44 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import replace
+
+import numpy as np
 
 from spavision.errors import InputError
 
 from .observe import Observation
 
+LARGEST_PITCH_CHANGE = 0.1
+"""Relative difference of the squares' size in pixels: a camera 75 mm nearer, of 750 mm."""
+
 
 def set_aside_strangers(observations: list[Observation]) -> list[Observation]:
-    """Set aside photographs whose size differs from that of most: another camera, or turned."""
-    sizes = Counter((o.width, o.height) for o in observations if o.board is not None)
-    if not sizes:
+    """Take board and spots from photographs of another camera or another set-up.
+
+    Their size differs from that of most photographs, or their squares do by more than a knocked tripod
+    explains. One such photograph would spoil the camera that all share.
+    """
+    seen = [o for o in observations if o.board is not None]
+    if not seen:
         return observations
-    common = sizes.most_common(1)[0][0]
-    return [
-        o
-        if o.board is None or (o.width, o.height) == common
-        else replace(
-            o,
-            problem=f"{o.name} has {o.width}×{o.height} px, most photos {common[0]}×{common[1]} px",
-            board=None,
-            candidates=(),
-            map=None,
+    size = Counter((o.width, o.height) for o in seen).most_common(1)[0][0]
+    pitch_px = float(np.median([o.board.pitch_px for o in seen if o.board and (o.width, o.height) == size]))
+    return [o.set_aside(problem) if (problem := _strangeness(o, size, pitch_px)) else o for o in observations]
+
+
+def _strangeness(observation: Observation, size: tuple[int, int], pitch_px: float) -> str:
+    """Return what sets a photograph apart from the others; nothing where it fits."""
+    board, width, height = observation.board, observation.width, observation.height
+    if board is None:
+        return observation.problem
+    if (width, height) != size:
+        return f"{observation.name} has {width}×{height} px, most photos {size[0]}×{size[1]} px"
+    if abs(board.pitch_px / pitch_px - 1.0) > LARGEST_PITCH_CHANGE:
+        return (
+            f"{observation.name} shows squares of {board.pitch_px:.1f} px, most photos of {pitch_px:.1f} px: "
+            "it is from another set-up"
         )
-        for o in observations
-    ]
+    return ""
 
 
 def refuse_hopeless(observations: list[Observation], *, given_by_hand: bool) -> None:

@@ -23,6 +23,7 @@ from .corrections import (
 from .evidence import Evidence
 from .notes import correction_text, track_notes
 from .observe import MarkerLook, Observation, observe
+from .orientation import set_aside_turned
 from .places import Places, find_places
 from .readings import budget_of, displacements_mm, reading, statuses
 from .result import Track
@@ -70,11 +71,21 @@ def track(
     observations = set_aside_strangers(observations)
     refuse_hopeless(observations, given_by_hand=any(c.pixel is not None for c in corrections.values()))
     observations = without_corrected_spots(corrections, observations)
-    origin = next(k for k, observation in enumerate(observations) if observation.board is not None)
-    stations = group_stations(observations, origin)
+    observations, origin, stations = _in_one_lattice(observations)
     fit = _fit(observations, origin, stations, settings)
     evidence = Evidence(observations, stations, fit, settings, corrections)
     return _assemble(pressures, evidence, find_places(evidence))
+
+
+def _in_one_lattice(observations: list[Observation]) -> tuple[list[Observation], int, Stations]:
+    """Bring the photographs to the indices of the first that shows the board; set turned ones aside."""
+    while True:
+        origin = next(k for k, o in enumerate(observations) if o.board is not None)
+        stations = group_stations(observations, origin)
+        upright = set_aside_turned(observations, stations, origin)
+        if [o.problem for o in upright] == [o.problem for o in observations]:
+            return observations, origin, stations
+        observations = upright
 
 
 def _observe_all(

@@ -16,9 +16,11 @@ from .output import csv_text, number
 from .photo_series import PhotoSeries, photo_series
 from .pictures import jpeg
 from .progress import progress_bar
+from .shapes import measure_shapes
 
 if TYPE_CHECKING:
     from spavision.correlate.report import Picture
+    from spavision.vision.shape import ShapeReading
     from spavision.vision.track import Track
 
 REPORT_PHOTO_PX = 900
@@ -27,15 +29,20 @@ REPORT_PHOTO_PX = 900
 
 @dataclass(frozen=True)
 class Measurement:
-    """A track with the photos that it came from."""
+    """A track with the photos that it came from, and the shapes in them."""
 
     track: Track
     series: PhotoSeries
+    shapes: tuple[ShapeReading, ...]
+    rest_length_mm: float
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What the user should know of photos and track, a sentence each."""
-        return (*self.series.notes, *self.track.notes)
+        """What the user should know of photos, track and shapes, a sentence each."""
+        from spavision.vision.shape_series import shape_notes
+
+        of_shapes = shape_notes(self.shapes, expected_length_mm=self.rest_length_mm)
+        return (*self.series.notes, *self.track.notes, *of_shapes)
 
     def record(self) -> dict[str, Any]:
         """Return what ``run.json`` keeps of the measurement."""
@@ -109,25 +116,29 @@ def measure(place: Path, experiment: Experiment, *, results: ResultsFolder, quie
             corrections=series.corrections,
             progress=progress,
         )
-    return Measurement(found, series)
+    actuator = experiment.actuator
+    shapes = measure_shapes(found, series, actuator, quiet=quiet)
+    return Measurement(found, series, shapes, actuator.void_count * actuator.pitch_mm)
 
 
 def write_measurement(results: ResultsFolder, measurement: Measurement) -> DrawnPhotos:
-    """Write ``track.csv``, one overlay a photo and the montage; return what the report shows of them."""
+    """Write ``track.csv``, ``shape.csv``, overlays and the montage; return what the report shows of them."""
     from spavision.correlate.report import Picture
     from spavision.vision.overlay import montage, montage_tile, overlay
     from spavision.vision.photos import read_photo
+    from spavision.vision.shape_series import shape_table
 
     track = measurement.track
     paths = {path.name: path for path in measurement.series.photos}
     largest = measurement.series.settings.largest_megapixels
     results.write_text("track.csv", csv_text(track.tip_path.table()))
+    results.write_text("shape.csv", csv_text(shape_table(measurement.shapes, track)))
     tiles, small = [], {}
     for row, reading in enumerate(track.readings):
         if not len(reading.corners_px):
             continue
         photo = read_photo(paths[reading.photo], largest_megapixels=largest).rgb
-        drawn = overlay(photo, track, row)
+        drawn = overlay(photo, track, row, shape=measurement.shapes[row].shape)
         results.write_bytes(f"overlays/{Path(reading.photo).stem}.jpg", jpeg(drawn))
         tiles.append(montage_tile(photo, track, row))
         small[reading.pressure_kPa] = Picture(

@@ -30,6 +30,9 @@ WIDTH_RANGE = (0.7, 1.3)
 LOOK_AHEAD_SQUARES = 6
 """A stretch without believable edges up to this length may be something that crosses behind."""
 
+FEWEST_CLAMP_STEPS = 2
+"""Steps into the clamp that show it, where the photo or the board ends soon after."""
+
 FEWEST_STEPS = 12
 MOST_STEPS = 400
 HUE_CHANGE = 0.12
@@ -140,6 +143,8 @@ class _Walk:
             place = centres[-1] + heading * PIXELS_A_SQUARE
             section = self._section(place, heading)
             if section is None:
+                if doubtful >= FEWEST_CLAMP_STEPS:
+                    return centres[:-doubtful]
                 raise UnclearError("the actuator leaves the photo or the board before a clamp is seen")
             side, believed = self._sideways(section)
             doubtful = 0 if believed else doubtful + 1
@@ -204,8 +209,8 @@ class _Walk:
         )
 
     def _section(self, place: FloatArray, heading: FloatArray) -> _Section | None:
-        """Measure across the walk; None where the place leaves the picture."""
-        if not _inside(place, self.mask.shape):
+        """Measure across the walk; None where the place leaves the picture or whatever hides the board."""
+        if not _inside(place, self.mask.shape) or not self.mask[_pixel(place)]:
             return None
         reach = np.arange(0.5 * WIDEST_SQUARES * PIXELS_A_SQUARE)
         ends = []

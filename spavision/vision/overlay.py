@@ -11,6 +11,7 @@ from .arrays import FloatArray, IntArray, RgbImage
 from .camera import project
 from .grid import neighbour_rows
 from .result import Reading, Track
+from .shape import ActuatorShape, shape_pixels
 
 RESIDUAL_ENLARGEMENT = 50.0
 
@@ -18,6 +19,7 @@ LATTICE_RGB = (0, 170, 255)
 RESIDUAL_RGB = (255, 0, 200)
 RIM_RGB = (255, 255, 0)
 TIP_RGB = (0, 255, 80)
+CENTRE_LINE_RGB = (255, 255, 255)
 PATH_RGB = (255, 140, 0)
 TEXT_RGB = (255, 255, 255)
 
@@ -25,8 +27,8 @@ MONTAGE_HEIGHT_PX = 420
 MONTAGE_COLUMNS = 7
 
 
-def overlay(photo_rgb: RgbImage, track: Track, row: int) -> RgbImage:
-    """Draw what was measured in one photograph: lattice, residual vectors, marker's rim, tip path so far.
+def overlay(photo_rgb: RgbImage, track: Track, row: int, *, shape: ActuatorShape | None = None) -> RgbImage:
+    """Draw what was measured in a photograph: lattice, residual vectors, marker's rim, tip path, centre line.
 
     Parameters
     ----------
@@ -36,6 +38,8 @@ def overlay(photo_rgb: RgbImage, track: Track, row: int) -> RgbImage:
         The whole track.
     row : int
         Which of its readings the photograph is.
+    shape : ActuatorShape, optional
+        The actuator's shape in it.
 
     Returns
     -------
@@ -47,6 +51,8 @@ def overlay(photo_rgb: RgbImage, track: Track, row: int) -> RgbImage:
     line = max(1, round(max(picture.shape) / 1600))
     _draw_lattice(picture, reading, line)
     _draw_path(picture, track, row, line)
+    if shape is not None:
+        _polyline(picture, shape_pixels(shape, reading, track), line, CENTRE_LINE_RGB)
     if reading.marker_px is not None:
         for point in reading.rim_px[np.isfinite(reading.rim_px).all(axis=1)]:
             _dot(picture, point, line, RIM_RGB)
@@ -116,7 +122,7 @@ def _draw_path(picture: RgbImage, track: Track, row: int, line: int) -> None:
     standoff = track.standoff_mm if track.parallax_factor != 1.0 else 0.0
     points = np.column_stack([np.array(places), np.full(len(places), -(standoff or 0.0))])
     pixels = project(track.camera, pose, points)
-    cv2.polylines(picture, [_fixed(pixels)], False, PATH_RGB, line, cv2.LINE_AA, shift=SHIFT)
+    _polyline(picture, pixels, line, PATH_RGB)
     for pixel in pixels:
         _circle(picture, pixel, 3 * line, line, PATH_RGB)
 
@@ -157,6 +163,10 @@ def _fixed(points: FloatArray) -> IntArray:
 def _dot(picture: RgbImage, point: FloatArray, radius: int, rgb: tuple[int, int, int]) -> None:
     x, y = _fixed(point).tolist()
     cv2.circle(picture, (x, y), radius * 2**SHIFT // 2, rgb, -1, cv2.LINE_AA, SHIFT)
+
+
+def _polyline(picture: RgbImage, pixels: FloatArray, line: int, rgb: tuple[int, int, int]) -> None:
+    cv2.polylines(picture, [_fixed(pixels)], False, rgb, line, cv2.LINE_AA, shift=SHIFT)
 
 
 def _circle(picture: RgbImage, point: FloatArray, radius: int, line: int, rgb: tuple[int, int, int]) -> None:

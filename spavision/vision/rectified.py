@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import cast
+from typing import Any, cast
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from .arrays import BoolArray, FloatArray, FloatImage, IntArray, RgbImage, blur, sample, shrink, shrunk_place
 from .camera import Camera, Pose, project
@@ -111,7 +112,7 @@ def rectify(
     part = _hidden_part(seen, np.floor(around_mm / square_mm).astype(np.intp) - low)
     if part is None:
         return None
-    seen, low = seen[part], low + [part[1].start, part[0].start]
+    seen, low = seen[part], low + np.array([part[1].start, part[0].start])
     rows, columns = seen.shape
     nodes = np.stack(np.meshgrid(np.arange(columns + 1), np.arange(rows + 1)), axis=-1) + low
     flat = nodes.reshape(-1, 2) * square_mm
@@ -241,6 +242,6 @@ def _deviation(values: FloatImage, expected: FloatImage, sigma: FloatImage) -> F
     return np.asarray(np.minimum(_dot(away, away) / 3.0, LARGEST_STRANGENESS), dtype=np.float32)
 
 
-def _dot(first: FloatImage, second: FloatImage) -> FloatImage:
+def _dot(first: NDArray[Any], second: NDArray[Any]) -> NDArray[Any]:
     """Sum of products over the colours; several times faster than NumPy's sum over a short axis."""
     return np.asarray(np.einsum("...k,...k->...", first, second))

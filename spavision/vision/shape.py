@@ -17,6 +17,9 @@ from .silhouette import Silhouette, find_silhouette
 POINTS = 51
 """Points of a centre line that are handed over."""
 
+NO_BOARD = "no board"
+NO_MARKER = "no marker to start from"
+
 LEAST_SEEN = 0.3
 LEAST_SEEN_OVERALL = 0.5
 """Shares of the length along which an edge must be seen: on either side, and on both together."""
@@ -107,9 +110,9 @@ def shape_of(photo_rgb: RgbImage, reading: Reading, track: Track, *, body_width_
         return ShapeReading(reading.photo, reading.pressure_kPa, None, reason)
 
     if reading.pose is None or len(reading.indices) == 0:
-        return without("no board")
+        return without(NO_BOARD)
     if reading.marker_mm is None:
-        return without("no marker to start from")
+        return without(NO_MARKER)
     try:
         silhouette = _silhouette(photo_rgb, reading, track, reading.pose, reading.marker_mm, body_width_mm)
         shape = _checked(silhouette, reading.marker_mm, track.square_mm)

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from .result import Track
-from .shape import ShapeReading
+from .shape import NO_BOARD, NO_MARKER, ShapeReading
 
 SAME_WIDTH = 0.12
 """Relative difference of width at which an outline is taken for something else."""
@@ -90,13 +90,15 @@ def shape_table(readings: Sequence[ShapeReading], track: Track) -> pd.DataFrame:
 def shape_notes(readings: Sequence[ShapeReading], *, expected_length_mm: float) -> tuple[str, ...]:
     """Say which photographs gave no shape, and whether the body's length betrays a wrong square size.
 
+    Photographs without a reading of the tip are told by the track.
+
     Parameters
     ----------
     expected_length_mm : float
         Length of the body at rest that hangs out of the clamp.
     """
     notes = []
-    missing = [reading for reading in readings if reading.shape is None]
+    missing = [r for r in readings if r.shape is None and r.reason not in (NO_BOARD, NO_MARKER)]
     for reason in dict.fromkeys(reading.reason for reading in missing):
         names = ", ".join(reading.photo for reading in missing if reading.reason == reason)
         notes.append(f"no shape in {names}: {reason}")

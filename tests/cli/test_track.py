@@ -22,6 +22,9 @@ def test_a_folder_becomes_a_tip_path_overlays_and_a_montage(spavision, photos, t
     table = pd.read_csv(tmp_path / "out" / "track.csv")
     error = table[["ux_mm", "uy_mm"]].to_numpy() - truth_of(A_FEW)
     assert np.abs(error).max() < 0.1  # what the issue asks of the sample sets
+    shapes = pd.read_csv(tmp_path / "out" / "shape.csv")
+    assert set(shapes["photo"]) == set(A_FEW)
+    assert shapes.groupby("photo")["arc_mm"].apply(lambda arc: arc.is_monotonic_increasing).all()
     assert len(list((tmp_path / "out" / "overlays").iterdir())) == 3
     assert Image.open(tmp_path / "out" / "figures" / "montage.jpg").width > 500
     record = json.loads((tmp_path / "out" / "run.json").read_text())

@@ -22,6 +22,9 @@ SHOWS_BODY = 0.5
 BOUND_WEIGHT = 0.05
 """Say of a broken bound against that of a seen edge."""
 
+FEWEST_EDGE_POINTS = 60
+"""Edge points, of both sides together, that a fit needs."""
+
 END_MARGIN_MM = 2.0
 """Stretch at either end that is left out of the fit: rounded corners, the clamp's shadow."""
 
@@ -59,6 +62,8 @@ def find_silhouette(board: RectifiedBoard, bare: BareBoard, limb: Limb, sight: S
     residuals = np.full((2, STATIONS), np.nan)
     for search in SEARCH_SQUARES:
         sides = [view.edge(line, sign, search * board.square_mm) for sign in (-1.0, 1.0)]
+        if sum(np.count_nonzero(np.isfinite(side.distance_mm)) for side in sides) < FEWEST_EDGE_POINTS:
+            raise UnclearError("too little of the actuator's edges is seen")
         line, residuals = fit_edges(line, sides[0], sides[1])
         tip = view.tip(line, search * board.square_mm)
         line = line.trimmed(0.0, line.length_mm + tip)

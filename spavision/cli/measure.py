@@ -124,7 +124,7 @@ def measure(place: Path, experiment: Experiment, *, results: ResultsFolder, quie
 def write_measurement(results: ResultsFolder, measurement: Measurement) -> DrawnPhotos:
     """Write ``track.csv``, ``shape.csv``, overlays and the montage; return what the report shows of them."""
     from spavision.correlate.report import Picture
-    from spavision.vision.overlay import montage, montage_tile, overlay
+    from spavision.vision.overlay import montage, montage_layout, montage_tile, overlay
     from spavision.vision.photos import read_photo
     from spavision.vision.shape_series import shape_table
 
@@ -134,19 +134,20 @@ def write_measurement(results: ResultsFolder, measurement: Measurement) -> Drawn
     results.write_text("track.csv", csv_text(track.tip_path.table()))
     results.write_text("shape.csv", csv_text(shape_table(measurement.shapes, track)))
     tiles, small = [], {}
+    tile_height_px, columns = montage_layout(len(track.readings))
     for row, reading in enumerate(track.readings):
         if not len(reading.corners_px):
             continue
         photo = read_photo(paths[reading.photo], largest_megapixels=largest).rgb
         drawn = overlay(photo, track, row, shape=measurement.shapes[row].shape)
         results.write_bytes(f"overlays/{Path(reading.photo).stem}.jpg", jpeg(drawn))
-        tiles.append(montage_tile(photo, track, row))
+        tiles.append(montage_tile(photo, track, row, height_px=tile_height_px))
         small[reading.pressure_kPa] = Picture(
             jpeg(drawn, longest_side_px=REPORT_PHOTO_PX),
             "image/jpeg",
             f"{reading.photo} with what was measured",
         )
-    sheet = jpeg(montage(tiles))
+    sheet = jpeg(montage(tiles, columns=columns))
     results.write_bytes("figures/montage.jpg", sheet)
     return DrawnPhotos(
         small, Picture(sheet, "image/jpeg", "The photos in order of pressure, the tip marked.")

@@ -9,11 +9,15 @@ import numpy as np
 
 from .arrays import FloatArray, IntArray, RgbImage
 from .camera import project
-from .grid import neighbour_rows
+from .grid import median_pitch, neighbour_rows
 from .result import Reading, Track
 from .shape import ActuatorShape, shape_pixels
 
-RESIDUAL_ENLARGEMENT = 50.0
+ENLARGEMENTS = (10, 20, 50, 100, 200, 500, 1000)
+"""Enlargements of residual vectors; the same in all photographs of a track, so that they can be compared."""
+
+TYPICAL_VECTOR_SQUARES = 0.5
+"""Most length that a typical residual vector is drawn with."""
 
 LATTICE_RGB = (0, 170, 255)
 RESIDUAL_RGB = (255, 0, 200)
@@ -25,6 +29,8 @@ TEXT_RGB = (255, 255, 255)
 
 MONTAGE_HEIGHT_PX = 420
 MONTAGE_COLUMNS = 7
+MOST_LARGE_TILES = 42
+"""More tiles than these are made smaller, so that a long series fits the same sheet."""
 
 
 def overlay(photo_rgb: RgbImage, track: Track, row: int, *, shape: ActuatorShape | None = None) -> RgbImage:
@@ -49,7 +55,7 @@ def overlay(photo_rgb: RgbImage, track: Track, row: int, *, shape: ActuatorShape
     picture = photo_rgb.copy()
     reading = track.readings[row]
     line = max(1, round(max(picture.shape) / 1600))
-    _draw_lattice(picture, reading, line)
+    _draw_lattice(picture, reading, line, enlargement=_enlargement(track))
     _draw_path(picture, track, row, line)
     if shape is not None:
         _polyline(picture, shape_pixels(shape, reading, track), line, CENTRE_LINE_RGB)
@@ -57,6 +63,8 @@ def overlay(photo_rgb: RgbImage, track: Track, row: int, *, shape: ActuatorShape
         for point in reading.rim_px[np.isfinite(reading.rim_px).all(axis=1)]:
             _dot(picture, point, line, RIM_RGB)
         _cross(picture, reading.marker_px, 6 * line, line, TIP_RGB)
+    if reading.base_px is not None:
+        _cross(picture, reading.base_px, 6 * line, line, TIP_RGB)
     _caption(picture, _headline(track, row), line)
     return picture
 
@@ -77,6 +85,12 @@ def montage_tile(
     text = f"{reading.pressure_kPa:g} kPa" + ("" if reading.status == "ok" else f" ({reading.status})")
     _caption(tile, text, 1)
     return tile
+
+
+def montage_layout(number: int) -> tuple[int, int]:
+    """Return the height in px and the columns for a montage of so many tiles."""
+    smaller = max(1.0, number / MOST_LARGE_TILES) ** 0.5
+    return round(MONTAGE_HEIGHT_PX / smaller), round(MONTAGE_COLUMNS * smaller)
 
 
 def montage(tiles: Sequence[RgbImage], *, columns: int = MONTAGE_COLUMNS) -> RgbImage:
@@ -100,17 +114,27 @@ def montage(tiles: Sequence[RgbImage], *, columns: int = MONTAGE_COLUMNS) -> Rgb
     return sheet
 
 
-def _draw_lattice(picture: RgbImage, reading: Reading, line: int) -> None:
-    """Thin lines between neighbouring corners, and residual vectors enlarged by `RESIDUAL_ENLARGEMENT`."""
+def _draw_lattice(picture: RgbImage, reading: Reading, line: int, *, enlargement: int) -> None:
+    """Thin lines between neighbouring corners, and enlarged residual vectors."""
     if len(reading.corners_px) == 0:
         return
     for step in ((1, 0), (0, 1)):
         starts, ends = neighbour_rows(reading.indices, step)
         segments = np.stack([reading.corners_px[starts], reading.corners_px[ends]], axis=1)
         cv2.polylines(picture, list(_fixed(segments)), False, LATTICE_RGB, 1, cv2.LINE_AA, shift=SHIFT)
-    tips = reading.corners_px + RESIDUAL_ENLARGEMENT * reading.residuals_px
+    tips = reading.corners_px + enlargement * reading.residuals_px
     vectors = np.stack([reading.corners_px, tips], axis=1)
     cv2.polylines(picture, list(_fixed(vectors)), False, RESIDUAL_RGB, line, cv2.LINE_AA, shift=SHIFT)
+
+
+def _enlargement(track: Track) -> int:
+    """Return how much residual vectors are enlarged, so that typical ones show and do not overlap."""
+    measured = [reading for reading in track.readings if len(reading.corners_px) > 1]
+    if not measured:
+        return ENLARGEMENTS[0]
+    rms_px = float(np.median([reading.rms_px for reading in measured]))
+    longest_px = TYPICAL_VECTOR_SQUARES * median_pitch(measured[0].indices, measured[0].corners_px)
+    return max((e for e in ENLARGEMENTS if e * rms_px <= longest_px), default=ENLARGEMENTS[0])
 
 
 def _draw_path(picture: RgbImage, track: Track, row: int, line: int) -> None:
@@ -137,7 +161,7 @@ def _headline(track: Track, row: int) -> str:
         )
     if np.isfinite(reading.rms_px):
         text += f"  corners {len(reading.indices)}, rms {reading.rms_px:.3f} px"
-        text += f" (vectors x{RESIDUAL_ENLARGEMENT:g})"
+        text += f" (vectors x{_enlargement(track)})"
     return f"{text}  {reading.reason}".rstrip()
 
 

@@ -1,5 +1,6 @@
 """The tracker on fresh renders, against the renderer's own truth."""
 
+import pickle
 import shutil
 
 import numpy as np
@@ -8,7 +9,9 @@ from PIL import Image
 
 from spavision.errors import InputError
 from spavision.vision.camera import Camera, Pose, project, to_plane
-from spavision.vision.overlay import montage, montage_tile, overlay
+from spavision.vision.colour import parse_colour
+from spavision.vision.observe import MarkerLook, observe
+from spavision.vision.overlay import montage, montage_layout, montage_tile, overlay
 from spavision.vision.photos import read_photo
 from spavision.vision.track import track
 
@@ -162,3 +165,18 @@ def test_overlay_and_montage_show_the_tip_where_it_is(plain_set, plain_track):
     sheet = montage(tiles, columns=2)
     assert sheet.shape[0] > 2 * tiles[0].shape[0]
     assert sheet.shape[1] > 2 * tiles[0].shape[1]
+
+
+def test_the_montage_of_a_long_series_is_no_larger_than_that_of_a_short_one():
+    for number in (1, 14, 42, 300, 2000):
+        height_px, columns = montage_layout(number)
+        rows = -(-number // columns)
+        assert columns >= 7
+        assert rows * height_px < 1.4 * 6 * 420
+
+
+def test_an_observation_keeps_no_picture(plain_set):
+    # Hundreds of photographs are held at a time, so what is kept of each must stay far below its pixels.
+    look = MarkerLook(parse_colour("red"), None)
+    seen = observe(plain_set.paths[0], tip=look, base=None, largest_megapixels=200.0)
+    assert len(pickle.dumps(seen)) < 640 * 560

@@ -1,0 +1,155 @@
+"""The pressure ramp of the reduced model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from spavision.model.elements import FloatArray
+from spavision.model.geometry import ActuatorGeometry
+from spavision.model.newton import NewtonSettings, NotConvergedError
+from spavision.model.simulation import SimulationSettings
+from spavision.tip_path import TipPath
+
+from .cell import Cell, CellResponse, SectionLoad
+from .rod import RodShape, hang
+
+LARGEST_VOLUME_RATIO = 3.3
+"""V/V₀ up to which the reduced model is meant: beyond, the walls balloon and the error passes some 5 %."""
+
+_LARGEST_STEP_KPA = 5.0
+
+
+@dataclass(frozen=True)
+class ReducedSimulation:
+    """What the reduced model found.
+
+    Parameters
+    ----------
+    tip_path : TipPath
+        One row for each asked pressure; beyond the model's range its reason says so.
+    volume_ratio : array, shape (n_pressures,)
+        Of the cells' gas, V/V₀; NaN where not reached.
+    axis_mm : array, shape (n_pressures, n_cells + 1, 2)
+        Axis points; NaN where not reached.
+    """
+
+    tip_path: TipPath
+    volume_ratio: FloatArray
+    axis_mm: FloatArray
+
+
+def simulate_reduced(
+    geometry: ActuatorGeometry,
+    *,
+    crimp_ratio: float,
+    pressures_kPa: FloatArray,
+    settings: SimulationSettings | None = None,
+) -> ReducedSimulation:
+    """Inflate a hanging row of alike cells.
+
+    One cell in three dimensions, in pure bending and tension, is carried along the ramp at the mean load of
+    the row; its compliance there gives the other cells' response. Left out: the channel through the walls,
+    shear, the clamp's hold on the first cell and the end wall of the last.
+
+    Parameters
+    ----------
+    geometry : ActuatorGeometry
+    crimp_ratio : float
+    pressures_kPa : array, shape (n,)
+        Increasing, 0 or more.
+    settings : SimulationSettings, optional
+        Mesh level, materials, paper, gravity and Newton's settings are used.
+
+    Raises
+    ------
+    InputError
+        If crimp ratio, material names or mesh level are unusable.
+    """
+    settings = settings or SimulationSettings()
+    cell = Cell(geometry, crimp_ratio=crimp_ratio, settings=settings)
+    count = geometry.void_count
+    axis = np.full((len(pressures_kPa), count + 1, 2), np.nan)
+    marker = np.full((len(pressures_kPa), 2), np.nan)
+    volume_ratio = np.full(len(pressures_kPa), np.nan)
+    row_of_cells = _Row(cell, count, cell.mass_tonne if settings.gravity else 0.0, settings.newton)
+    reason = ""
+    for row, target in enumerate(pressures_kPa):
+        try:
+            response, shape = row_of_cells.inflate(float(target))
+        except (NotConvergedError, ArithmeticError) as error:
+            reason = f"the reduced model stopped at {row_of_cells.reached_kPa:.4g} kPa: {error}"
+            break
+        axis[row], volume_ratio[row] = shape.points_mm, response.volume_ratio
+        marker[row] = _marker(shape, geometry, cell.axis_x_mm)
+    return ReducedSimulation(_tip_path(pressures_kPa, marker, volume_ratio, reason), volume_ratio, axis)
+
+
+class _Row:
+    """A cell and the row of cells like it, on the way up."""
+
+    def __init__(self, cell: Cell, n_cells: int, mass_tonne: float, newton: NewtonSettings) -> None:
+        self._cell, self._n_cells, self._mass_tonne, self._newton = cell, n_cells, mass_tonne, newton
+        self._shape: RodShape | None = None
+        self.reached_kPa = 0.0
+
+    def inflate(self, target_kPa: float) -> tuple[CellResponse, RodShape]:
+        """Go on to a pressure in steps, the cell bearing the mean load of the row one step before."""
+        parts = max(1, int(np.ceil((target_kPa - self.reached_kPa) / _LARGEST_STEP_KPA - 1e-9)))
+        steps = [float(step) for step in np.linspace(self.reached_kPa, target_kPa, parts + 1)[1:]]
+        for pressure in steps[:-1]:
+            self._step(pressure)
+        return self._step(steps[-1])
+
+    def _step(self, pressure_kPa: float) -> tuple[CellResponse, RodShape]:
+        moment, tension = (0.0, 0.0) if self._shape is None else _mean_load(self._shape)
+        response = self._cell.respond(SectionLoad(1e-3 * pressure_kPa, moment, tension), self._newton)
+        self._shape = hang(response, n_cells=self._n_cells, mass_tonne=self._mass_tonne, start=self._shape)
+        self.reached_kPa = pressure_kPa
+        return response, self._shape
+
+
+def _mean_load(shape: RodShape) -> tuple[float, float]:
+    return float(shape.moments_Nmm.mean()), float(shape.tensions_N.mean())
+
+
+def _marker(shape: RodShape, geometry: ActuatorGeometry, axis_x_mm: float) -> FloatArray:
+    """Position of the tracked point, between the faces of the cell that carries it."""
+    x, y, _ = geometry.marker_position_mm
+    at = y / geometry.pitch_mm
+    cell = min(int(at), geometry.void_count - 1)
+    share = at - cell
+    angle = (1.0 - share) * shape.angles[cell] + share * shape.angles[cell + 1]
+    point = (1.0 - share) * shape.points_mm[cell] + share * shape.points_mm[cell + 1]
+    return np.asarray(point + (x - axis_x_mm) * np.array([np.cos(angle), -np.sin(angle)]))
+
+
+def _tip_path(
+    pressures_kPa: FloatArray, marker_mm: FloatArray, volume_ratio: FloatArray, reason: str
+) -> TipPath:
+    relative = marker_mm - marker_mm[0]
+    status, reasons = [], []
+    for ratio in volume_ratio:
+        if not np.isfinite(ratio):
+            status.append("missing")
+            reasons.append(reason)
+        elif ratio > LARGEST_VOLUME_RATIO:
+            status.append("ok")
+            reasons.append(
+                f"beyond the reduced model's range: V/V₀ is {ratio:.2f}, expected up to "
+                f"{LARGEST_VOLUME_RATIO:g}"
+            )
+        else:
+            status.append("ok")
+            reasons.append("")
+    unknown = np.full(len(pressures_kPa), np.nan)
+    return TipPath(
+        pressure_kPa=pressures_kPa,
+        ux_mm=relative[:, 0],
+        uy_mm=relative[:, 1],
+        sigma_ux_mm=unknown,
+        sigma_uy_mm=unknown.copy(),
+        status=tuple(status),
+        reason=tuple(reasons),
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,11 +11,14 @@ import cv2
 import numpy as np
 from PIL import ExifTags, Image, ImageOps, UnidentifiedImageError
 
-from spavision.errors import InputError
+from spavision.errors import InputError, InputWarning
 
 from .arrays import FloatImage, RgbImage
 
 PHOTO_SUFFIXES = (".jpg", ".jpeg", ".png", ".tif", ".tiff", ".bmp", ".webp")
+UNREAD_SUFFIXES = (".heic", ".heif", ".dng", ".cr2", ".cr3", ".nef", ".arw", ".raf", ".orf", ".rw2")
+"""Photographs too, in formats that are not understood."""
+
 LARGEST_MEGAPIXELS = 200.0
 FULL_FRAME_WIDTH_MM = 36.0
 
@@ -71,6 +75,10 @@ def find_photos(folder: Path) -> list[Path]:
         for path in folder.iterdir()
         if path.suffix.lower() in PHOTO_SUFFIXES and path.is_file() and not path.name.startswith(".")
     ]
+    unread = sorted(path.name for path in folder.iterdir() if path.suffix.lower() in UNREAD_SUFFIXES)
+    if photos and unread:
+        message = f"{unread[0]} and others of its kind are not read; convert them to JPEG, PNG or TIFF"
+        warnings.warn(message, InputWarning, stacklevel=2)
     if not photos:
         kinds = ", ".join(suffix[1:] for suffix in PHOTO_SUFFIXES)
         raise InputError(f"{folder} holds no photograph; expected files of one of these kinds: {kinds}")

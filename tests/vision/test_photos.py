@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from PIL import ExifTags, Image
 
-from spavision.errors import InputError
+from spavision.errors import InputError, InputWarning
 from spavision.vision.photos import find_photos, read_photo
 
 GRADIENT = np.zeros((40, 60, 3), np.uint8)
@@ -72,6 +72,13 @@ def test_names_come_in_natural_order_and_other_files_are_left_alone(tmp_path):
     (tmp_path / ".hidden.png").write_text("")
     (tmp_path / "folder.png").mkdir()
     assert [path.name for path in find_photos(tmp_path)] == ["p9.png", "p10.png", "p100.png"]
+
+
+def test_photographs_in_formats_that_are_not_read_are_told(tmp_path):
+    Image.fromarray(GRADIENT).save(tmp_path / "p0.png")
+    (tmp_path / "p5.HEIC").write_bytes(b"")
+    with pytest.warns(InputWarning, match=r"p5\.HEIC .* convert"):
+        assert [path.name for path in find_photos(tmp_path)] == ["p0.png"]
 
 
 def test_a_folder_without_photographs_is_refused(tmp_path):

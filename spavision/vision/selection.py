@@ -16,6 +16,9 @@ COST_OF_MISSING = 7.0
 COST_ON_BOARD = 4.0
 """Cost of a spot that the board's corners surround: the marker's carrier hides them."""
 
+RADIUS_TOLERANCE = 0.15
+"""Relative difference of radius that costs one unit."""
+
 STATIC_SQUARES = 0.15
 """Motion within which a spot counts as fixed to the board."""
 
@@ -68,8 +71,21 @@ def select_markers(
     motion : Motion
         How far the marker is expected to move.
     """
-    expected = radius_squares if radius_squares is not None else _common_radius(candidates)
     fixed = [np.zeros(len(place)) for place in places] if motion.may_rest else _static_cost(places)
+    radii = [radius_squares] if radius_squares is not None else _radii(candidates)
+    # A round bolt has a size of its own: of all sizes seen, the one that explains the series best counts.
+    paths = [_cheapest_path(candidates, places, fixed, radius, motion) for radius in radii]
+    return min(paths, key=lambda path: path[0])[1] if paths else [None] * len(candidates)
+
+
+def _cheapest_path(
+    candidates: Sequence[Sequence[Candidate]],
+    places: Sequence[FloatArray],
+    fixed: Sequence[FloatArray],
+    radius: float,
+    motion: Motion,
+) -> tuple[float, list[int | None]]:
+    """Return the cost of the best choice for a marker of the given radius, and the choice."""
     cost = np.zeros(0)
     photo = np.zeros(0, dtype=np.intp)
     before: list[int] = []
@@ -86,41 +102,38 @@ def select_markers(
                 origin = -1
             before.append(origin)
             way = now * COST_OF_MISSING if origin < 0 else float(total[origin])
-            arrival.append(way + _look_cost(candidate, expected) + fixed[now][k])
+            arrival.append(way + _look_cost(candidate, radius) + fixed[now][k])
         cost = np.append(cost, arrival)
         photo = np.append(photo, np.full(len(own), now, dtype=np.intp))
     return _trace(cost, photo, before, len(candidates))
 
 
-def _trace(cost: FloatArray, photo: IntArray, before: list[int], n: int) -> list[int | None]:
-    """Follow the cheapest path back from its last spot; return its spot in each photograph."""
+def _trace(cost: FloatArray, photo: IntArray, before: list[int], n: int) -> tuple[float, list[int | None]]:
+    """Follow the cheapest path back from its last spot; return its cost and its spot in each photograph."""
     chosen: list[int | None] = [None] * n
     total = cost + (n - 1 - photo) * COST_OF_MISSING
     spot = int(np.argmin(total)) if len(total) and total.min() < n * COST_OF_MISSING else -1
+    lowest = float(total[spot]) if spot >= 0 else n * COST_OF_MISSING
     while spot >= 0:
         now = int(photo[spot])
         chosen[now] = spot - int(np.searchsorted(photo, now))
         spot = before[spot]
-    return chosen
+    return lowest, chosen
 
 
-def _look_cost(candidate: Candidate, radius: float | None) -> float:
+def _look_cost(candidate: Candidate, radius: float) -> float:
     cost = (candidate.roundness / 0.04) ** 2 + 4.0 * (1.0 - candidate.coverage)
     cost += (12.0 / max(candidate.contrast, 1.0)) ** 2 + 0.5 * (20.0 / max(candidate.strength, 1.0)) ** 2
     cost += COST_ON_BOARD * candidate.on_board
-    if radius is not None:
-        cost += (np.log(candidate.radius_squares / radius) / 0.15) ** 2
+    cost += (np.log(candidate.radius_squares / radius) / RADIUS_TOLERANCE) ** 2
     return float(cost)
 
 
-def _common_radius(candidates: Sequence[Sequence[Candidate]]) -> float | None:
-    """Radius that the roundest candidates of most photographs share."""
-    best = [
-        min(photo, key=lambda candidate: _look_cost(candidate, None)).radius_squares
-        for photo in candidates
-        if photo
-    ]
-    return float(np.median(best)) if best else None
+def _radii(candidates: Sequence[Sequence[Candidate]]) -> list[float]:
+    """Radii of spots, one for each group of spots of about the same size."""
+    logs = np.sort([np.log(candidate.radius_squares) for photo in candidates for candidate in photo])
+    groups = np.split(logs, np.flatnonzero(np.diff(logs) > RADIUS_TOLERANCE) + 1) if len(logs) else []
+    return [float(np.exp(np.median(group))) for group in groups]
 
 
 def _static_cost(places: Sequence[FloatArray]) -> list[FloatArray]:

@@ -9,8 +9,6 @@ from .primitives import smooth_step, value_noise
 
 TIP_ROUNDING_MM = 2.0
 EDGE_MM = 1.3
-WELL_OUTSIDE_MM = 5.0
-"""Beyond the table's border the outline is farther away than this, by its margin."""
 
 
 @kernel
@@ -28,11 +26,10 @@ def body_place(body, table, x, y):  # type: ignore[no-untyped-def]
 
 @kernel
 def body_distance(body, table, x, y):  # type: ignore[no-untyped-def]
-    """Signed distance to the body's outline in the plane of its face (negative: inside)."""
-    outside = max(body.x0 - x, x - body.x0 - body.step * (table.shape[1] - 1))
-    outside = max(outside, max(body.y0 - y, y - body.y0 - body.step * (table.shape[0] - 1)))
-    if outside > 0.0:
-        return outside + WELL_OUTSIDE_MM
+    """Signed distance to the body's outline in the plane of its face (negative: inside).
+
+    Beyond the table's border it stays what it is there, some 30 mm: too far for sight or shadow.
+    """
     along, across = body_place(body, table, x, y)
     return _outline_distance(body, along, across)
 

@@ -62,7 +62,7 @@ def simulate(
         If pressures, crimp ratio, material names or mesh level are unusable.
     """
     settings = settings or SimulationSettings()
-    pressures = _checked_pressures(pressures_kPa)
+    pressures = checked_pressures(pressures_kPa)
     if settings.control not in CONTROLS:
         raise InputError(f"control is {settings.control!r}, expected one of {', '.join(CONTROLS)}")
     problem = actuator_problem(geometry, crimp_ratio=crimp_ratio, settings=settings)
@@ -124,7 +124,14 @@ def _ramp(
     )
 
 
-def _checked_pressures(pressures_kPa: FloatArray) -> FloatArray:
+def checked_pressures(pressures_kPa: FloatArray) -> FloatArray:
+    """Return the pressures of a ramp as an array.
+
+    Raises
+    ------
+    InputError
+        If they do not increase, or are outside 0 to `LARGEST_PRESSURE_KPA`.
+    """
     pressures = np.atleast_1d(np.asarray(pressures_kPa, dtype=float))
     if pressures.ndim != 1 or pressures.size == 0:
         raise InputError("pressures: expected at least one pressure in kPa")

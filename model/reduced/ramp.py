@@ -9,6 +9,7 @@ import numpy as np
 from spavision.model.elements import FloatArray
 from spavision.model.geometry import ActuatorGeometry
 from spavision.model.newton import NewtonSettings, NotConvergedError
+from spavision.model.simulate import checked_pressures
 from spavision.model.simulation import SimulationSettings
 from spavision.tip_path import TipPath
 
@@ -65,9 +66,9 @@ def simulate_reduced(
     Raises
     ------
     InputError
-        If crimp ratio, material names or mesh level are unusable.
+        If pressures, crimp ratio, material names or mesh level are unusable.
     """
-    settings = settings or SimulationSettings()
+    settings, pressures_kPa = settings or SimulationSettings(), checked_pressures(pressures_kPa)
     cell = Cell(geometry, crimp_ratio=crimp_ratio, settings=settings)
     count = geometry.void_count
     axis = np.full((len(pressures_kPa), count + 1, 2), np.nan)

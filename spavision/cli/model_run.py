@@ -19,6 +19,7 @@ from .progress import progress_bar
 
 if TYPE_CHECKING:
     from spavision.correlate.report import Picture
+    from spavision.model.reduced.ramp import ReducedSimulation
     from spavision.model.simulate import Simulation, SimulationSettings
 
 
@@ -41,6 +42,25 @@ def run_model(experiment: Experiment, pressure_kPa: FloatArray, *, quiet: bool) 
             settings=_settings(experiment),
             progress=lambda reached_kPa: advance(f"{reached_kPa:.0f} kPa", reached_kPa),
         )
+
+
+def run_reduced_model(experiment: Experiment, pressure_kPa: FloatArray) -> ReducedSimulation:
+    """Run the reduced model of the experiment's actuator at the given pressures.
+
+    Raises
+    ------
+    InputError
+        As `run_model`.
+    """
+    from spavision.model.geometry import ActuatorGeometry
+    from spavision.model.reduced.ramp import simulate_reduced
+
+    return simulate_reduced(
+        ActuatorGeometry(**experiment.actuator.geometry()),
+        crimp_ratio=_crimp_ratio(experiment),
+        pressures_kPa=pressure_kPa,
+        settings=_settings(experiment),
+    )
 
 
 def write_model_deck(path: Path, experiment: Experiment, pressure_kPa: FloatArray, *, force: bool) -> None:

@@ -71,5 +71,10 @@ def default_output(command: str, name: str) -> Path:
     return Path("results") / f"{command}-{name}"
 
 
+def finite_list(values: Sequence[float]) -> list[float | None]:
+    """Return numbers fit for JSON: None for a gap."""
+    return [_finite_or_none(float(value)) for value in values]
+
+
 def _finite_or_none(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -24,10 +24,17 @@ DEFAULT_PRESSURES = "0:65:5"
     type=click.Path(path_type=Path, dir_okay=False),
     help="Also write the model as a deck for CalculiX and Abaqus.",
 )
+@click.option(
+    "--model",
+    type=click.Choice(["full", "reduced"]),
+    default="full",
+    show_default=True,
+    help="reduced: a row of alike cells, for sweeps; the tip path alone.",
+)
 @model_options
 @experiment_option
 @results_options
-def simulate(pressures_kpa: str, write_deck: Path | None, **given: Any) -> None:
+def simulate(pressures_kpa: str, write_deck: Path | None, model: str, **given: Any) -> None:
     """Run the 3D finite-element model of the actuator.
 
     Writes simulation.csv, the fields as VTU files for ParaView, a picture of the deformed shapes and an
@@ -45,6 +52,9 @@ def simulate(pressures_kpa: str, write_deck: Path | None, **given: Any) -> None:
     results = ResultsFolder(given["output"] or output.default_output("simulate", name), force=given["force"])
     if write_deck is not None:
         write_model_deck(write_deck, experiment, pressures, force=given["force"])
+    if model == "reduced":
+        _simulate_reduced(experiment, pressures, results, given)
+        return
     simulation = run_model(experiment, pressures, quiet=given["quiet"])
     write_simulation(results, simulation)
     results.write_record(
@@ -56,6 +66,42 @@ def simulate(pressures_kpa: str, write_deck: Path | None, **given: Any) -> None:
         }
     )
     _report(simulation, results.path, as_json=given["as_json"], quiet=given["quiet"])
+
+
+def _simulate_reduced(experiment: Any, pressures: Any, results: Any, given: dict[str, Any]) -> None:
+    from . import output
+    from .model_run import run_reduced_model
+
+    reduced = run_reduced_model(experiment, pressures)
+    path = reduced.tip_path
+    results.write_text("simulation.csv", output.csv_text(path.table()))
+    record = {"model": "reduced", "volume_ratio": output.finite_list(reduced.volume_ratio.tolist())}
+    results.write_record(
+        {
+            "command": "simulate",
+            "experiment": experiment.model_dump(),
+            "pressures_kPa": pressures.tolist(),
+            "simulation": record,
+        }
+    )
+    if given["as_json"]:
+        output.print_json({"tip_path": output.records(path.table()), **record, "output": str(results.path)})
+        return
+    if not given["quiet"]:
+        _print_path(path)
+    output.print_lines([f"Results: {results.path}"])
+
+
+def _print_path(path: Any) -> None:
+    from . import output
+
+    rows = [
+        [f"{p:g}", output.number(x), output.number(y), reason]
+        for p, x, y, reason in zip(
+            path.pressure_kPa, path.ux_mm, path.uy_mm, path.reason or ("",) * len(path), strict=True
+        )
+    ]
+    output.print_table("Modelled tip path", ["pressure kPa", "x mm", "y mm", "remark"], rows)
 
 
 def _report(simulation: Any, folder: Path, *, as_json: bool, quiet: bool) -> None:
@@ -73,13 +119,7 @@ def _report(simulation: Any, folder: Path, *, as_json: bool, quiet: bool) -> Non
         )
         return
     if not quiet:
-        rows = [
-            [f"{p:g}", output.number(x), output.number(y), reason]
-            for p, x, y, reason in zip(
-                path.pressure_kPa, path.ux_mm, path.uy_mm, path.reason or ("",) * len(path), strict=True
-            )
-        ]
-        output.print_table("Modelled tip path", ["pressure kPa", "x mm", "y mm", "remark"], rows)
+        _print_path(path)
         _report_design(simulation)
     if simulation.stopped_at_kPa is not None:
         output.warn(f"the model stopped at {simulation.stopped_at_kPa:g} kPa: {simulation.stop_reason}")

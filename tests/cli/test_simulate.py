@@ -28,6 +28,26 @@ def test_a_short_ramp_writes_path_fields_and_picture(spavision, tmp_path):
     assert (tmp_path / "actuator.inp").read_text().count("*STEP") == 2  # the weight, 5 kPa
 
 
+def test_reduced_model_gives_the_tip_path(spavision, tmp_path):
+    outcome = spavision(
+        "simulate",
+        "--model",
+        "reduced",
+        "--crimp",
+        "0.2",
+        "--mesh",
+        "draft",
+        "--pressures-kpa",
+        "0,5",
+        "-o",
+        "out",
+    )
+    assert outcome.code == 0, outcome.err
+    path = pd.read_csv(tmp_path / "out" / "simulation.csv")
+    assert path["ux_mm"][1] > 0.5
+    assert json.loads((tmp_path / "out" / "run.json").read_text())["simulation"]["model"] == "reduced"
+
+
 def test_a_deck_is_not_replaced_unasked(spavision, tmp_path):
     (tmp_path / "actuator.inp").write_text("mine")
     outcome = spavision("simulate", "--crimp", "0.2", "--write-deck", "actuator.inp")

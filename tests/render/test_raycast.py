@@ -30,7 +30,7 @@ def light_of(scene_settings, move=(0.0, 0.0), covers=()):
 
 
 def sampled_board(camera, board, width, height):
-    """Average paper and ink over a fine grid in each pixel; rays by OpenCV's own inverse of the distortion."""
+    """Average paper and ink over a fine grid in each pixel; rays by OpenCV's inverse of the distortion."""
     fine = (np.arange(SAMPLES_A_SIDE) + 0.5) / SAMPLES_A_SIDE - 0.5
     x = (np.arange(width)[:, None] + fine).ravel()
     y = (np.arange(height)[:, None] + fine).ravel()

@@ -66,8 +66,3 @@ def test_the_word_reject_serves_in_the_place_of_a_pixel(tmp_path):
     assert corrections["a.jpg"].pixel is None
     assert corrections["a.jpg"].remark == "blurred"
     assert corrections["b.jpg"].pixel == (1.5, 2.0)
-
-
-def test_a_pixel_outside_the_photo_is_refused(spavision, photos):
-    (photos / "corrections.csv").write_text(f"photo,x_px,y_px\n{A_FEW[0]},5000,10\n")
-    assert spavision("track", photos).is_one_sentence_about(A_FEW[0], "5000", "outside")

@@ -7,6 +7,10 @@ import pandas as pd
 import pytest
 from PIL import Image
 
+from spavision.cli.photo_series import photo_series
+from spavision.experiment import Experiment
+from spavision.results import ResultsFolder
+
 from .conftest import A_FEW, SAMPLES
 
 
@@ -155,7 +159,8 @@ def test_larger_photos_than_asked_for_are_not_read(spavision, photos):
     assert outcome.is_one_sentence_about(A_FEW[0], "megapixels", "0.5 allowed")
 
 
-def test_the_same_photo_under_two_names_is_told(spavision, photos):
+def test_the_same_photo_under_two_names_is_told(photos, tmp_path):
     (photos / "IMG_0009_045kPa.jpg").write_bytes((photos / A_FEW[2]).read_bytes())
-    outcome = spavision("track", photos, "-o", "out")
-    assert f"{A_FEW[2]} and IMG_0009_045kPa.jpg are the same file" in outcome.out
+    series = photo_series(photos, Experiment(), results=ResultsFolder(tmp_path / "out"))
+    assert len(series.notes) == 1
+    assert f"{A_FEW[2]} and IMG_0009_045kPa.jpg are the same file" in series.notes[0]

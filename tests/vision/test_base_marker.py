@@ -52,7 +52,7 @@ def test_a_base_marker_that_is_not_there_is_refused(plain_set):
     for colour, message in (("red", "both the marker and the base marker"), ("blue", "no base marker")):
         with pytest.raises(InputError, match=message):
             track(
-                plain_set.paths,
-                plain_set.pressures_kPa,
+                plain_set.paths[:1],
+                plain_set.pressures_kPa[:1],
                 settings=plain_set.track_settings(base_marker_colour=colour),
             )

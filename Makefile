@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 
-.PHONY: demo test lint types format bench bench-fe wheel-check clean
+.PHONY: demo test lint types format bench bench-fe wheel-check clean clean-kernels
 
 demo: $(READY)
 	$(BIN)/spavision correlate --crimp 0.2 --output results/demo --force
@@ -43,5 +43,9 @@ $(READY): pyproject.toml constraints.txt
 	$(BIN)/python -m pip install --disable-pip-version-check --quiet --constraint constraints.txt --editable ".[fast,test]"
 	touch $(READY)
 
-clean:
+# numba looks at a compiled function's own file alone: after a change to a kernel that other files call.
+clean-kernels:
+	find spavision model -name '*.nb[ci]' -delete
+
+clean: clean-kernels
 	rm -rf $(VENV) build dist results *.egg-info .pytest_cache .mypy_cache .ruff_cache

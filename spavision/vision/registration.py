@@ -16,6 +16,9 @@ WIDEST_SHIFT_SQUARES = 20
 SMALLEST_CERTAINTY = 3.0
 """Standard errors by which the best shift must lead for its index to be trusted."""
 
+LEAST_CERTAINTY = 1.5
+"""Below this the shift is a guess. On renders guesses stay below 0.6, and right shifts above 2."""
+
 BLOCK_SQUARES = 6
 
 LARGEST_DIFFERENCE = 0.15

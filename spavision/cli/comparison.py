@@ -5,13 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from spavision.errors import InputError
 from spavision.results import ResultsFolder, versions
 
 from .measure import DrawnPhotos, write_measurement
 from .measured_side import MeasuredSide
 from .model_run import run_model, simulation_record, state_pictures, write_simulation
-from .output import csv_text
+from .output import csv_text, number
 from .pictures import figure_bytes
 
 if TYPE_CHECKING:
@@ -63,6 +65,8 @@ def compare_with_model(side: MeasuredSide, *, quiet: bool) -> Comparison:
     """
     from spavision.correlate.discrepancy import compare, in_bending_axes
     from spavision.correlate.summary import summarise
+    from spavision.correlate.validation import ModelUncertainty
+    from spavision.model.mesh_error import numerical_uncertainty_mm
     from spavision.model.simulate import LARGEST_PRESSURE_KPA
 
     highest = float(side.path.pressure_kPa.max())
@@ -74,7 +78,11 @@ def compare_with_model(side: MeasuredSide, *, quiet: bool) -> Comparison:
     experiment = side.source.experiment
     simulation = run_model(experiment, side.model_pressure_kPa, quiet=quiet)
     measured = in_bending_axes(side.path, first_bend=experiment.actuator.first_bend)
-    return Comparison(side, simulation, summarise(compare(measured, simulation.tip_path)))
+    discrepancy = compare(measured, simulation.tip_path)
+    modelled = discrepancy.modelled
+    mesh_mm = numerical_uncertainty_mm(experiment.model.mesh, modelled.ux_mm, modelled.uy_mm)
+    known = ModelUncertainty(mesh_x_mm=mesh_mm, mesh_y_mm=mesh_mm)
+    return Comparison(side, simulation, summarise(discrepancy, known))
 
 
 def write_comparison(results: ResultsFolder, comparison: Comparison) -> None:
@@ -102,7 +110,10 @@ def _report_content(comparison: Comparison, drawn: DrawnPhotos | None) -> Report
     from spavision.correlate.report import ReportContent
 
     measurement = comparison.side.measurement
-    tables = {"Steps of the model": _step_rows(comparison.simulation)}
+    tables = {
+        "Error against validation uncertainty (V&V 20)": _validation_rows(comparison.summary),
+        "Steps of the model": _step_rows(comparison.simulation),
+    }
     if measurement is not None:
         tables = {"Uncertainty budget of the readings": measurement.budget_rows(), **tables}
     return ReportContent(
@@ -124,6 +135,23 @@ def _frames(comparison: Comparison, drawn: DrawnPhotos | None) -> list[Frame]:
     states = state_pictures(comparison.simulation)
     pressures = comparison.summary.discrepancy.pressure_kPa.tolist()
     return [Frame(pressure, photos.get(pressure), states.get(pressure)) for pressure in pressures]
+
+
+def _validation_rows(summary: Summary) -> list[list[str]]:
+    header = ["pressure kPa", "component", "error mm", "u_val mm", "u_num mm", "u_D mm", "verdict"]
+    rows = [header]
+    for row in np.flatnonzero(summary.discrepancy.is_common):
+        for name, validation in (("x", summary.validation_x), ("y", summary.validation_y)):
+            numbers = (
+                validation.error_mm[row],
+                validation.u_val_mm[row],
+                validation.u_num_mm[row],
+                validation.u_data_mm[row],
+            )
+            verdict = "differ significantly" if validation.is_significant[row] else "within 2 u_val"
+            pressure = f"{summary.discrepancy.pressure_kPa[row]:g}"
+            rows.append([pressure, name, *(number(value, 3) for value in numbers), verdict])
+    return rows
 
 
 def _step_rows(simulation: Simulation) -> list[list[str]]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .adjustment import Adjustment, Priors
-from .arrays import FloatArray, FloatImage, IntArray, shrink, shrunk_place
+from .arrays import BoolArray, FloatArray, FloatImage, IntArray, shrink, shrunk_place
 from .camera import Camera, Pose, project
 from .lattice import grow_lattice
 from .refill import FIT_CORNERS, Corners, drop_outliers, expected_corners, fit_corners, guided_refill
@@ -124,10 +124,11 @@ def _complete(gray: FloatImage, small: FloatImage, factor: float, corners: Corne
     priors = provisional_priors(gray.shape[1], gray.shape[0])
     if factor < 1.0:
         corners = replace(corners, pixels=shrunk_place(corners.pixels, 1.0 / factor))
-        fit = fit_corners(corners, priors, largest=FIT_CORNERS)
-        _, vectors = expected_corners(fit.camera, fit.poses[0], corners.indices)
+        rough = fit_corners(corners, priors, largest=FIT_CORNERS)
+        _, vectors = expected_corners(rough.camera, rough.poses[0], corners.indices)
         pixels = fit_saddles(gray, corners.pixels, *vectors)
-        corners = replace(corners, pixels=pixels).take(np.isfinite(pixels).all(axis=1))
+        seen: BoolArray = np.all(np.isfinite(pixels), axis=1)
+        corners = replace(corners, pixels=pixels).take(seen)
     corners, fit = drop_outliers(corners, priors)
     if fit is None or len(corners.indices) < FEWEST_CORNERS:
         return None

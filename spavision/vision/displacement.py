@@ -43,6 +43,8 @@ class Place:
         Whether too little of the rim is seen for a free radius.
     rim_px : array, shape (n, 2)
         Edge points, NaN where a ray shows no edge; empty where a person gave the centre.
+    disc_sigma_px : float or None
+        Standard uncertainty of the disc fitted to the marker's pixels; None where edge points alone speak.
     by_hand_sigma_px : float or None
         Standard uncertainty of a centre that a person gave; None for a measured one.
     """
@@ -52,6 +54,7 @@ class Place:
     centre_px: FloatArray
     partial: bool
     rim_px: FloatArray
+    disc_sigma_px: float | None = None
     by_hand_sigma_px: float | None = None
 
 
@@ -189,6 +192,8 @@ def _marker_variance(place: Place, fit: CameraFit, standoff_mm: float) -> FloatA
     mm_per_px = (pose.distance_mm - standoff_mm) / fit.adjustment.camera.fx
     if place.by_hand_sigma_px is not None:
         return np.full(2, (place.by_hand_sigma_px * mm_per_px) ** 2)
+    if place.disc_sigma_px is not None:
+        return np.full(2, (place.disc_sigma_px**2 + RIM_FLOOR_PX**2) * mm_per_px**2)
     by_radius = place.circle.radius_slope * (RADIUS_SIGMA * place.circle.radius)
     return np.diag(place.circle.covariance) * 2.0 + by_radius**2 + (RIM_FLOOR_PX * mm_per_px) ** 2
 

@@ -12,6 +12,7 @@ from .board import BoardView
 from .camera import project, to_plane
 from .circle import Circle
 from .colour import colour_chroma, colour_strength, white_balance
+from .disc import Disc, fit_disc
 from .rim import find_rim
 
 FAINTEST_SHARE = 0.22
@@ -21,6 +22,11 @@ DIAMETER_RANGE_SQUARES = (0.7, 5.0)
 """Plausible marker diameters where none is given: 1.75 to 12.5 mm on 2.5 mm squares."""
 
 MOST_CANDIDATES = 12
+
+OUTLINE_POINTS = 96
+
+WHOLE = 0.8
+"""Share of the rim above which a disc is fitted to its pixels."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +43,10 @@ class Candidate:
         Radius of that circle.
     rim_px : array, shape (n, 2)
         Edge points, NaN where a ray shows no edge.
+    disc_px : array, shape (m, 2), or None
+        Outline of the disc fitted to the pixels, where the rim is seen whole.
+    disc_sigma_px : float or None
+        Standard uncertainty of one coordinate of that disc's centre.
     roundness : float
         Root mean square distance of supporting edge points from the circle, over the radius.
     coverage : float
@@ -53,6 +63,8 @@ class Candidate:
     place_squares: FloatArray
     radius_squares: float
     rim_px: FloatArray
+    disc_px: FloatArray | None
+    disc_sigma_px: float | None
     roundness: float
     coverage: float
     strength: float
@@ -92,7 +104,7 @@ def find_candidates(
         part, strength, FAINTEST_SHARE * colour_chroma(colour), low * board.pitch_px, high * board.pitch_px
     )
     offset = np.array([left, top], dtype=float)
-    found = [_examine(smooth, board, spot, offset) for spot in spots[:MOST_CANDIDATES]]
+    found = [_examine(part, smooth, board, spot, offset) for spot in spots[:MOST_CANDIDATES]]
     return tuple(
         c for c in found if c is not None and low < 2.0 * c.radius_squares < high and not _is_square(c)
     )
@@ -144,7 +156,9 @@ def _spots(
     return spots
 
 
-def _examine(smooth: FloatImage, board: BoardView, spot: _Spot, offset: FloatArray) -> Candidate | None:
+def _examine(
+    part: RgbImage, smooth: FloatImage, board: BoardView, spot: _Spot, offset: FloatArray
+) -> Candidate | None:
     """Measure a spot's rim; None when it has none."""
     local = _shifted(board, offset)
     place = to_plane(local.camera, local.pose, spot.centre_px[None])
@@ -154,17 +168,27 @@ def _examine(smooth: FloatImage, board: BoardView, spot: _Spot, offset: FloatArr
     if found is None:
         return None
     rim, circle = found
+    disc = fit_disc(part, local, circle) if circle.coverage >= WHOLE else None
     return Candidate(
         centre_px=project(local.camera, local.pose, circle.centre[None])[0] + offset,
         place_squares=circle.centre,
         radius_squares=circle.radius,
         rim_px=rim.pixels + offset,
+        disc_px=None if disc is None else _outline(local, disc) + offset,
+        disc_sigma_px=None if disc is None else disc.sigma_px,
         roundness=circle.rms / circle.radius,
         coverage=circle.coverage,
         strength=spot.strength,
         contrast=rim.contrast,
         on_board=_board_around(board, circle),
     )
+
+
+def _outline(board: BoardView, disc: Disc) -> FloatArray:
+    """Points on the rim of a disc, px."""
+    angle = np.linspace(0.0, 2.0 * np.pi, OUTLINE_POINTS, endpoint=False)
+    ring = disc.centre + disc.radius * np.column_stack([np.cos(angle), np.sin(angle)])
+    return project(board.camera, board.pose, ring)
 
 
 def _is_square(candidate: Candidate) -> bool:

@@ -10,7 +10,7 @@ from spavision.errors import InputError
 
 from .arrays import FloatArray
 from .camera import project, to_plane
-from .circle import Circle
+from .circle import Circle, fit_circle
 from .displacement import Place, common_radius_mm, fit_place, rim_in_plane
 from .evidence import Evidence
 from .marker import Candidate
@@ -137,17 +137,21 @@ def _fit_all(
     places: list[Place | None] = []
     for photo, (rim, spot) in enumerate(zip(rims, choice, strict=True)):
         found = None if rim is None else fit_place(rim, radius)
-        places.append(
-            None if found is None or spot is None else _place(evidence, photo, *found, rim_px=spot.rim_px)
-        )
+        places.append(None if found is None or spot is None else _place(evidence, photo, *found, spot=spot))
     return places, radius
 
 
-def _place(evidence: Evidence, photo: int, circle: Circle, partial: bool, *, rim_px: FloatArray) -> Place:
+def _place(evidence: Evidence, photo: int, circle: Circle, partial: bool, *, spot: Candidate) -> Place:
+    """Place a marker: by the disc fitted to its pixels where it is seen whole, else by its edge points."""
     adjustment, station = evidence.fit.adjustment, evidence.station(photo)
+    sigma_px = None
+    if spot.disc_px is not None and not partial:
+        outline = fit_circle(rim_in_plane(evidence.fit, station, spot.disc_px, evidence.standoff_mm))
+        if outline is not None:
+            circle, sigma_px = outline, spot.disc_sigma_px
     point = np.array([[*circle.centre, -evidence.standoff_mm]])
     centre_px = project(adjustment.camera, adjustment.poses[station], point)[0]
-    return Place(circle, station, centre_px, partial, rim_px)
+    return Place(circle, station, centre_px, partial, spot.rim_px, sigma_px)
 
 
 def _by_hand(evidence: Evidence, photo: int, place: Place | None) -> Place | None:

@@ -148,7 +148,7 @@ def _step_direction(inner: FloatArray, outer: FloatArray) -> FloatArray | None:
     step = np.median(inner, axis=0) - np.median(outer, axis=0)
     direction = np.linalg.solve(np.cov(inner.T) + np.cov(outer.T) + 4.0 * np.eye(3), step)
     length = float(step @ direction)
-    return direction / length if length > 1e-9 else None
+    return np.asarray(direction / length, dtype=float) if length > 1e-9 else None
 
 
 def _window(image: FloatImage | RgbImage, board: BoardView, start: Circle) -> tuple[FloatArray, FloatArray]:

@@ -64,9 +64,36 @@ def track(
         If no photograph is readable, none shows a board, none shows a marker, or a correction does not fit.
     """
     refuse_unknown_photos(corrections, [path.name for path in paths])
+    observations = observe_photos(paths, settings=settings, progress=progress)
+    return track_observations(observations, pressures_kPa, settings=settings, corrections=corrections)
+
+
+def track_observations(
+    observations: Sequence[Observation],
+    pressures_kPa: Sequence[float] | FloatArray,
+    *,
+    settings: TrackSettings,
+    corrections: Corrections = NO_CORRECTIONS,
+) -> Track:
+    """Measure the tip's displacement in photographs that have each been measured on its own.
+
+    The photographs need not be measured again to see what another stand-off or distance would mean.
+
+    Parameters
+    ----------
+    observations : sequence of Observation
+        From `observe_photos`.
+    pressures_kPa, settings, corrections
+        As in `track`.
+
+    Raises
+    ------
+    InputError
+        As in `track`.
+    """
     order = np.argsort(np.asarray(pressures_kPa, dtype=float), kind="stable")
     pressures = np.asarray(pressures_kPa, dtype=float)[order]
-    observations = _observe_all([paths[k] for k in order], settings, progress)
+    observations = [observations[k] for k in order]
     refuse_outside_pixels(corrections, observations)
     observations = set_aside_strangers(observations)
     refuse_hopeless(observations, given_by_hand=any(c.pixel is not None for c in corrections.values()))
@@ -88,9 +115,10 @@ def _in_one_lattice(observations: list[Observation]) -> tuple[list[Observation],
         observations = upright
 
 
-def _observe_all(
-    paths: list[Path], settings: TrackSettings, progress: Callable[[str], None] | None
+def observe_photos(
+    paths: Sequence[Path], *, settings: TrackSettings, progress: Callable[[str], None] | None = None
 ) -> list[Observation]:
+    """Measure board and marker candidates of each photograph on its own, several at a time."""
     tip = _look(settings.marker_colour, settings.marker_diameter_mm, settings)
     base = None
     if settings.base_marker_colour is not None:

@@ -148,7 +148,10 @@ def _step_direction(inner: FloatArray, outer: FloatArray) -> FloatArray | None:
     step = np.median(inner, axis=0) - np.median(outer, axis=0)
     direction = np.linalg.solve(np.cov(inner.T) + np.cov(outer.T) + 4.0 * np.eye(3), step)
     length = float(step @ direction)
-    return np.asarray(direction / length, dtype=float) if length > 1e-9 else None
+    if length <= 1e-9:
+        return None
+    scaled: FloatArray = np.asarray(direction / length, dtype=np.float64)
+    return scaled
 
 
 def _window(image: FloatImage | RgbImage, board: BoardView, start: Circle) -> tuple[FloatArray, FloatArray]:

@@ -117,12 +117,17 @@ def adjust_bundle(views: Sequence[View], size: tuple[int, int], model: LensModel
     """
     points = [_with_z(view.points_mm).astype(np.float32) for view in views]
     pixels = [view.pixels.astype(np.float32).reshape(-1, 1, 2) for view in views]
+    threads = cv2.getNumThreads()
+    # Several threads add up in an order of their own each time: the same photos shall give the same camera.
+    cv2.setNumThreads(1)
     try:
         _, matrix, coefficients, rotations, translations = cv2.calibrateCamera(
             points, pixels, size, np.eye(3), np.zeros(5), flags=model.flags(), criteria=CRITERIA
         )
     except cv2.error:
         return None
+    finally:
+        cv2.setNumThreads(threads)
     if not (np.isfinite(matrix).all() and np.isfinite(coefficients).all() and matrix[0, 0] > 0):
         return None
     k1, k2, p1, p2, k3 = np.asarray(coefficients, dtype=float).ravel()[:5].tolist()

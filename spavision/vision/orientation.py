@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from .arrays import IntArray
 from .observe import BoardMap, Observation
 from .registration import SMALLEST_CERTAINTY, disagreements, levelled
 from .stations import Stations
@@ -23,7 +24,9 @@ def set_aside_turned(
     Only those are looked at whose place on the board is uncertain: a turned one's always is.
     """
     turns = {
-        k: _quarter_turns(observations[reference], o) if stations.certainty[k] < SMALLEST_CERTAINTY else 0
+        k: _quarter_turns(observations[reference], o, stations.shift[k])
+        if stations.certainty[k] < SMALLEST_CERTAINTY
+        else 0
         for k, o in enumerate(observations)
         if o.board is not None
     }
@@ -38,16 +41,17 @@ def set_aside_turned(
     ]
 
 
-def _quarter_turns(reference: Observation, other: Observation) -> int:
+def _quarter_turns(reference: Observation, other: Observation, shift: IntArray) -> int:
     """Return by how many quarters, anticlockwise, a photograph is turned against the reference."""
     assert reference.map is not None
     assert other.map is not None
     still, turning = levelled(reference.map), levelled(other.map)
     middle = np.array(still.origin) + np.array(still.values.shape[::-1]) // 2
-    costs = [min(disagreements(still, turning).values(), default=np.inf)]
+    costs = [min(disagreements(still, turning, about=shift).values(), default=np.inf)]
     for quarters in (1, 2, 3):
         values = np.ascontiguousarray(np.rot90(turning.values, -quarters))
         left, top = (middle - np.array(values.shape[::-1]) // 2).tolist()
-        costs.append(min(disagreements(still, BoardMap(values, (left, top))).values(), default=np.inf))
+        turned, centred = BoardMap(values, (left, top)), np.zeros(2, dtype=np.intp)
+        costs.append(min(disagreements(still, turned, about=centred).values(), default=np.inf))
     best = int(np.argmin(costs))
     return best if costs[best] < MUCH_BETTER * costs[0] else 0

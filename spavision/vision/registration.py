@@ -61,7 +61,7 @@ def register(reference: Observation, other: Observation) -> Registration:
     nearest = np.rint(middle).astype(np.intp)
     still = spread < 0.08 and float(np.abs(middle - nearest).max()) < 0.12 and nearest.sum() % 2 == 0
     one_map, other_map = levelled(reference.map), levelled(other.map)
-    costs = disagreements(one_map, other_map)
+    costs = disagreements(one_map, other_map, about=nearest)
     best = min(costs, key=lambda shift: costs[shift])
     rivals = sorted((shift for shift in costs if shift != best), key=lambda shift: costs[shift])
     if still and costs.get((int(nearest[0]), int(nearest[1])), np.inf) < 1.3 * costs[best]:
@@ -92,11 +92,18 @@ def same_position(first: BoardView, second: BoardView, shift: IntArray) -> bool:
     return bool(np.abs(design @ coefficients).max() < STILL_PX + error)
 
 
-def disagreements(reference: BoardMap, other: BoardMap) -> dict[tuple[int, int], float]:
-    """Return the mean disagreement of two maps for every shift that keeps the colour of squares."""
+def disagreements(reference: BoardMap, other: BoardMap, *, about: IntArray) -> dict[tuple[int, int], float]:
+    """Return the mean disagreement of two maps for every shift that keeps the colour of squares.
+
+    Each photograph's indices have an origin of their own, however far off: ``about`` (2,) is the shift that
+    an unmoved camera would have, and those within `WIDEST_SHIFT_SQUARES` of it are tried.
+    """
+    column, row = about.tolist()
     reach = range(-WIDEST_SHIFT_SQUARES, WIDEST_SHIFT_SQUARES + 1)
     costs = {}
-    for shift in ((dx, dy) for dy in reach for dx in reach if (dx + dy) % 2 == 0):
+    for shift in (
+        (column + dx, row + dy) for dy in reach for dx in reach if (column + row + dx + dy) % 2 == 0
+    ):
         difference = _difference(reference, other, shift)
         defined = np.isfinite(difference)
         if defined.sum() > 60:

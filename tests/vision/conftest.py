@@ -89,3 +89,21 @@ def hard_set(tmp_path_factory):
         covers=(Cover(photo=2, fraction=0.4, angle_deg=60.0),),
     )
     return render_set(tmp_path_factory.mktemp("hard"), settings, (0, 15, 40))
+
+
+@pytest.fixture
+def render_variant():
+    """Render four photos of the small board with noise, light and pose that differ from seed to seed."""
+
+    def render(folder: Path, seed: int) -> RenderedSet:
+        folder.mkdir(parents=True)
+        random = np.random.default_rng(seed)
+        yaw, pitch = random.uniform(-8.0, 8.0, 2).tolist()
+        settings = choose(
+            replace(SMALL, seed=100 + seed),
+            camera={"yaw_deg": yaw, "pitch_deg": pitch},
+            sensor={"full_well_e": float(random.choice([1500.0, 6000.0, 18000.0]))},
+        )
+        return render_set(folder, settings, (0, 15, 30, 45))
+
+    return render

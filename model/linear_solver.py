@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from importlib.util import find_spec
 from typing import Protocol
@@ -53,6 +54,8 @@ class PardisoSolver:
         from pypardiso import PyPardisoSolver
 
         self._pardiso = PyPardisoSolver(mtype=_SYMMETRIC_INDEFINITE)
+        # Unless told, the wrapper looks for MKL through the whole environment, each time anew.
+        os.environ.setdefault("PYPARDISO_MKL_RT", self._pardiso.libmkl._name)
         # iparm 1: take the values below, not the defaults; 2: METIS ordering; 8: no refinement steps;
         # 10: pivots below 1e-8 are perturbed; 11, 13: neither scaling nor matching, the tangent being well
         # scaled; 21: Bunch-Kaufman pivots.

@@ -1,21 +1,22 @@
-"""One pitch of the actuator in pure bending and tension: its far face stays plane and turns."""
+"""One pitch of the actuator in pure bending and tension: its end faces stay plane and turn."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import csr_array, triu
 
-from spavision.model.actuator_mesh import actuator_mesh
+from spavision.model.actuator_mesh import MESH_LEVELS, actuator_mesh, mesh_at_level
 from spavision.model.actuator_problem import actuator_materials
 from spavision.model.elements import FloatArray
-from spavision.model.equilibrium import Equilibrium
 from spavision.model.geometry import ActuatorGeometry
-from spavision.model.linear_solver import SingularTangentError, SuperLUSolver
-from spavision.model.newton import NewtonSettings, NotConvergedError
+from spavision.model.hex_mesh import HexMesh
+from spavision.model.linear_solver import LinearSolver, linear_solver
+from spavision.model.newton import NewtonSettings, find_equilibrium
 from spavision.model.simulation import SimulationSettings
 from spavision.model.state import Load, State, combine
+
+from .plane_face import PlaneEndedEquilibrium
 
 _POINTS_OF_PREDICTION = 3
 
@@ -30,7 +31,7 @@ class SectionLoad:
     moment_Nmm : float
         About the axis, positive when it bends towards region B (+x).
     tension_N : float
-        Along the axis.
+        Along the cell's chord.
     """
 
     gas_pressure_MPa: float
@@ -46,18 +47,18 @@ class CellResponse:
     ----------
     load : SectionLoad
     angle : float
-        By which the far face turns towards +x, in rad.
-    distance_mm : float
-        Of the far face's plane from the axis point of the near face.
+        Between the end faces, in rad; positive when the cell bends towards +x.
+    chord_mm : float
+        Distance between the axis points of the end faces.
     compliance : array, shape (2, 2)
-        Derivatives of (angle, distance) with respect to (moment, tension).
+        Derivatives of (angle, chord) with respect to (moment, tension).
     volume_ratio : float
         Gas volume over its undeformed value.
     """
 
     load: SectionLoad
     angle: float
-    distance_mm: float
+    chord_mm: float
     compliance: FloatArray
     volume_ratio: float
 
@@ -68,17 +69,14 @@ class _Reached:
 
     gas_pressure_MPa: float
     state: State
-    angle: float
-    distance_mm: float
 
 
 class Cell:
     """A cell between the middles of two walls, the channel through them left out.
 
-    By symmetry both faces stay plane in a long row of such cells in pure bending. The near face stays at
-    y = 0; the far face's nodes move to d·n + s·t with n = (sin θ, cos θ) and t = (cos θ, −sin θ), where the
-    angle θ and the distance d belong to the face and s to each node. Origin is the axis point, a node of the
-    near face at half the body's height.
+    In a long row of such cells in pure bending the middle planes of walls and voids are planes of
+    symmetry. So half a cell is computed: from the middle of the void, which stays at y = 0, to the middle
+    of the wall, which stays plane. Origin is the axis point of that plane, a node at half the body's height.
 
     Parameters
     ----------
@@ -94,29 +92,28 @@ class Cell:
         one = replace(
             geometry, void_count=1, end_wall_mm=0.5 * geometry.wall_between_voids_mm, marker_from_tip_mm=0.0
         )
-        mesh = actuator_mesh(one, level=settings.mesh_level)
+        mesh = _upper_half(one, settings.mesh_level)
         x, y, z = mesh.nodes_mm.T
-        near = np.flatnonzero(np.isclose(y, 0.0))
-        self.axis_node = int(near[np.hypot(x[near] - one.marker_position_mm[0], z[near]).argmin()])
-        self.axis_x_mm = float(x[self.axis_node])
+        face = np.flatnonzero(np.isclose(y, 0.5 * one.pitch_mm))
+        axis_node = int(face[np.hypot(x[face] - one.marker_position_mm[0], z[face]).argmin()])
+        self.axis_x_mm = float(x[axis_node])
         mesh = replace(mesh, nodes_mm=mesh.nodes_mm - np.array([self.axis_x_mm, 0.0, 0.0]))
         is_fixed = np.zeros((len(x), 3), dtype=bool)
-        is_fixed[near, 1] = True
+        is_fixed[np.isclose(y, 0.0), 1] = True
         is_fixed[np.isclose(z, 0.0), 2] = True
-        is_fixed[self.axis_node, 0] = True
         materials = actuator_materials(crimp_ratio=crimp_ratio, settings=settings)
-        self.problem = Equilibrium(mesh, materials, is_fixed=is_fixed)
-        self._far = np.flatnonzero(np.isclose(y, one.pitch_mm))
-        self._number = np.full(is_fixed.shape, -1, dtype=np.int64)
-        self._number[~is_fixed] = np.arange(np.count_nonzero(~is_fixed))
+        self.problem = PlaneEndedEquilibrium(
+            mesh, materials, is_fixed=is_fixed, face_nodes=face, axis_node=axis_node
+        )
+        self._solver: LinearSolver = linear_solver()
         self._first_volume = self.problem.enclosed_volume_mm3(self.problem.unloaded())
-        self._history = [_Reached(0.0, self.problem.unloaded(), 0.0, one.pitch_mm)]
+        self._history = [_Reached(0.0, self.problem.unloaded())]
 
     @property
     def mass_tonne(self) -> float:
         """Mass of the cell, of the whole width."""
         volume = self.problem.geometry.volumes.sum(axis=1)
-        return 2.0 * sum(
+        return 4.0 * sum(
             group.material.density_tonne_per_mm3 * float(volume[group.elements].sum())
             for group in self.problem.groups
         )
@@ -129,43 +126,26 @@ class Cell:
         NotConvergedError
             If Newton's method does not converge; the cell is then as before.
         """
-        state, angle, distance = self._predicted(load.gas_pressure_MPa)
-        # The mesh is one half of the width.
-        outer = 0.5 * np.array([load.tension_N, load.moment_Nmm])
-        correction_mm = np.inf
-        for _ in range(settings.max_iterations + 1):
-            balance = self.problem.balance(state, Load(load.gas_pressure_MPa, 0.0))
-            if balance is None:
-                raise NotConvergedError("an element of the cell was turned inside out")
-            map_to_nodes = self._map(state, angle, distance)
-            force = map_to_nodes.T @ balance.condensed[self.problem.is_free]
-            force[-2:] -= outer
-            upper = self.problem.tangent(state, Load(load.gas_pressure_MPa, 0.0), balance)
-            full = upper + triu(upper, k=1).T
-            tangent = map_to_nodes.T @ full @ map_to_nodes + self._curvature(state, balance.condensed, angle)
-            solver = SuperLUSolver()
-            try:
-                solver.factorise(csr_array(triu(tangent, format="csr")))
-            except SingularTangentError as error:
-                raise NotConvergedError("the cell's tangent is singular") from error
-            if correction_mm < settings.correction_tolerance_mm:
-                reached = _Reached(load.gas_pressure_MPa, state, angle, distance)
-                earlier = [one for one in self._history if one.gas_pressure_MPa < load.gas_pressure_MPa]
-                self._history = [*earlier, reached][-_POINTS_OF_PREDICTION:]
-                return self._response(load, reached, solver, len(force))
-            step = solver.solve(-force)
-            correction_mm = float(np.abs(step).max())
-            if not correction_mm < settings.largest_correction_mm:
-                raise NotConvergedError(f"a correction of {correction_mm:.3g} mm in the cell")
-            offset = self._offsets(state, angle)
-            linear = self.problem.update(state, balance, map_to_nodes @ step)
-            distance, angle = distance + float(step[-2]), angle + float(step[-1])
-            offset = offset + step[self._n_inner : -2]
-            state = replace(linear, displacement=self._placed(linear, offset, angle, distance))
-        raise NotConvergedError(f"no convergence of the cell in {settings.max_iterations} iteration(s)")
+        # The mesh is one half of the width; moment and tension act on it by halves.
+        self.problem.end_load = 0.5 * np.array([load.tension_N, load.moment_Nmm])
+        gas = Load(load.gas_pressure_MPa, 0.0)
+        found = find_equilibrium(
+            self.problem, self._predicted(load.gas_pressure_MPa), gas, solver=self._solver, settings=settings
+        )
+        reached = _Reached(load.gas_pressure_MPa, found.state)
+        earlier = [one for one in self._history if one.gas_pressure_MPa < load.gas_pressure_MPa]
+        self._history = [*earlier, reached][-_POINTS_OF_PREDICTION:]
+        pose = self.problem.pose(found.state)
+        return CellResponse(
+            load=load,
+            angle=2.0 * pose.angle,
+            chord_mm=2.0 * pose.height_mm,
+            compliance=self._compliance(),
+            volume_ratio=self.problem.enclosed_volume_mm3(found.state) / self._first_volume,
+        )
 
-    def _predicted(self, gas_pressure_MPa: float) -> tuple[State, float, float]:
-        """Polynomial through the states reached last, the far face kept plane."""
+    def _predicted(self, gas_pressure_MPa: float) -> State:
+        """Polynomial through the states reached last, the end face kept plane."""
         pressures = np.array([one.gas_pressure_MPa for one in self._history])
         weights = [
             float(np.prod((gas_pressure_MPa - others) / (pressures[k] - others)))
@@ -173,81 +153,41 @@ class Cell:
             for others in [np.delete(pressures, k)]
         ]
         state = combine(weights, [one.state for one in self._history])
-        angle = float(np.dot(weights, [one.angle for one in self._history]))
-        distance = float(np.dot(weights, [one.distance_mm for one in self._history]))
-        placed = self._placed(state, self._offsets(state, angle), angle, distance)
-        return replace(state, displacement=placed), angle, distance
+        return self.problem.placed(state, self.problem.pose(state))
 
-    def _response(
-        self, load: SectionLoad, reached: _Reached, solver: SuperLUSolver, n_unknowns: int
-    ) -> CellResponse:
+    def _compliance(self) -> FloatArray:
+        """Return the derivatives of (angle, chord), from the last tangent.
+
+        Two half cells deform, each under half of the load on the width: the factors cancel.
+        """
+        arm = self.problem.arm_mm
         compliance = np.empty((2, 2))
-        for column, unknown in enumerate((n_unknowns - 1, n_unknowns - 2)):
-            unit = np.zeros(n_unknowns)
-            unit[unknown] = 0.5
-            change = solver.solve(unit)
-            compliance[:, column] = change[-1], change[-2]
-        return CellResponse(
-            load=load,
-            angle=reached.angle,
-            distance_mm=reached.distance_mm,
-            compliance=compliance,
-            volume_ratio=self.problem.enclosed_volume_mm3(reached.state) / self._first_volume,
-        )
+        for column, (unknown, force) in enumerate(((-1, 1.0 / arm), (-2, 1.0))):
+            unit = np.zeros(self.problem.n_unknowns)
+            unit[unknown] = force
+            change = self._solver.solve(unit)
+            compliance[:, column] = change[-1] / arm, change[-2]
+        return compliance
 
-    @property
-    def _n_inner(self) -> int:
-        """Free components of all nodes but the far face's in-plane ones."""
-        return int(self._number.max()) + 1 - 2 * len(self._far)
 
-    def _offsets(self, state: State, angle: float) -> FloatArray:
-        """Return the far nodes' coordinates s along the face."""
-        position = (self.problem.mesh.nodes_mm + state.displacement)[self._far]
-        return np.asarray(position[:, 0] * np.cos(angle) - position[:, 1] * np.sin(angle))
-
-    def _placed(self, state: State, offset: FloatArray, angle: float, distance: float) -> FloatArray:
-        """Return the displacement with the far nodes put on the far plane."""
-        displacement = state.displacement.copy()
-        sine, cosine = np.sin(angle), np.cos(angle)
-        displacement[self._far, 0] = distance * sine + offset * cosine
-        displacement[self._far, 1] = distance * cosine - offset * sine
-        displacement[self._far, :2] -= self.problem.mesh.nodes_mm[self._far, :2]
-        return displacement
-
-    def _map(self, state: State, angle: float, distance: float) -> csr_array:
-        """Return the derivative of the free components with respect to (inner components, s, d, θ)."""
-        far_x, far_y = self._number[self._far, 0], self._number[self._far, 1]
-        inner = np.setdiff1d(self._number[self._number >= 0], np.concatenate([far_x, far_y]))
-        n_far, n_inner = len(self._far), len(inner)
-        sine, cosine = np.sin(angle), np.cos(angle)
-        offset = self._offsets(state, angle)
-        columns = n_inner + np.arange(n_far)
-        d, theta = np.full(n_far, n_inner + n_far), np.full(n_far, n_inner + n_far + 1)
-        ones = np.ones(n_far)
-        entries = [
-            (inner, np.arange(n_inner), np.ones(n_inner)),
-            (far_x, columns, cosine * ones),
-            (far_y, columns, -sine * ones),
-            (far_x, d, sine * ones),
-            (far_y, d, cosine * ones),
-            (far_x, theta, distance * cosine - offset * sine),
-            (far_y, theta, -distance * sine - offset * cosine),
-        ]
-        row, column, value = (np.concatenate(parts) for parts in zip(*entries, strict=True))
-        shape = (n_inner + 2 * n_far, n_inner + n_far + 2)
-        return csr_array((value, (row, column)), shape=shape)
-
-    def _curvature(self, state: State, forces: FloatArray, angle: float) -> csr_array:
-        """Return the forces on the far face times the second derivatives of its nodes' positions."""
-        n_far, n_inner = len(self._far), self._n_inner
-        force = forces[self._far, :2]
-        position = (self.problem.mesh.nodes_mm + state.displacement)[self._far, :2]
-        along_n = force[:, 0] * np.sin(angle) + force[:, 1] * np.cos(angle)
-        along_t = force[:, 0] * np.cos(angle) - force[:, 1] * np.sin(angle)
-        theta, d = n_inner + n_far + 1, n_inner + n_far
-        columns = n_inner + np.arange(n_far)
-        row = np.concatenate([columns, np.full(n_far, theta), [d, theta, theta]])
-        column = np.concatenate([np.full(n_far, theta), columns, [theta, d, theta]])
-        bend = float(along_t.sum())
-        value = np.concatenate([-along_n, -along_n, [bend, bend, -float(np.sum(force * position))]])
-        return csr_array((value, (row, column)), shape=(theta + 1, theta + 1))
+def _upper_half(one: ActuatorGeometry, mesh_level: str) -> HexMesh:
+    """Mesh the half of a cell from the middle of its void on, that middle at y = 0."""
+    if mesh_level not in MESH_LEVELS:
+        return actuator_mesh(one, level=mesh_level)
+    level = MESH_LEVELS[mesh_level]
+    whole = mesh_at_level(one, replace(level, void_length=level.void_length + level.void_length % 2))
+    middle = 0.5 * one.pitch_mm
+    y = whole.nodes_mm[:, 1]
+    kept = y[whole.elements].mean(axis=1) > middle
+    faces = whole.cavity_faces[y[whole.cavity_faces].mean(axis=1) > middle]
+    used, elements = np.unique(whole.elements[kept], return_inverse=True)
+    number = np.full(len(y), -1, dtype=np.int64)
+    number[used] = np.arange(len(used))
+    return HexMesh(
+        order=whole.order,
+        nodes_mm=whole.nodes_mm[used] - np.array([0.0, middle, 0.0]),
+        elements=np.ascontiguousarray(elements.reshape(-1, whole.elements.shape[1])),
+        region=whole.region[kept],
+        region_names=whole.region_names,
+        cavity_faces=number[faces],
+    )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,12 +14,15 @@ from spavision.model.simulation import SimulationSettings
 from spavision.tip_path import TipPath
 
 from .cell import Cell, CellResponse, SectionLoad
+from .one_thread import one_thread
 from .rod import RodShape, hang
 
 LARGEST_VOLUME_RATIO = 3.3
 """V/V₀ up to which the reduced model is meant: beyond, the walls balloon and the error passes some 5 %."""
 
 _LARGEST_STEP_KPA = 5.0
+_SMALLEST_STEP_KPA = 0.2
+_TIGHTER = 20.0
 
 
 @dataclass(frozen=True)
@@ -69,12 +72,21 @@ def simulate_reduced(
         If pressures, crimp ratio, material names or mesh level are unusable.
     """
     settings, pressures_kPa = settings or SimulationSettings(), checked_pressures(pressures_kPa)
+    with one_thread():
+        return _inflated(geometry, crimp_ratio, pressures_kPa, settings)
+
+
+def _inflated(
+    geometry: ActuatorGeometry, crimp_ratio: float, pressures_kPa: FloatArray, settings: SimulationSettings
+) -> ReducedSimulation:
     cell = Cell(geometry, crimp_ratio=crimp_ratio, settings=settings)
     count = geometry.void_count
     axis = np.full((len(pressures_kPa), count + 1, 2), np.nan)
     marker = np.full((len(pressures_kPa), 2), np.nan)
     volume_ratio = np.full(len(pressures_kPa), np.nan)
-    row_of_cells = _Row(cell, count, cell.mass_tonne if settings.gravity else 0.0, settings.newton)
+    row_of_cells = _Row(
+        cell, count, cell.mass_tonne if settings.gravity else 0.0, _tightened(settings.newton)
+    )
     reason = ""
     for row, target in enumerate(pressures_kPa):
         try:
@@ -87,23 +99,48 @@ def simulate_reduced(
     return ReducedSimulation(_tip_path(pressures_kPa, marker, volume_ratio, reason), volume_ratio, axis)
 
 
+def _tightened(newton: NewtonSettings) -> NewtonSettings:
+    """Converge further than the full model: an error of one cell's angle is an error of every cell's."""
+    return replace(
+        newton,
+        correction_tolerance_mm=newton.correction_tolerance_mm / _TIGHTER,
+        residual_tolerance=newton.residual_tolerance / _TIGHTER,
+    )
+
+
 class _Row:
     """A cell and the row of cells like it, on the way up."""
 
     def __init__(self, cell: Cell, n_cells: int, mass_tonne: float, newton: NewtonSettings) -> None:
         self._cell, self._n_cells, self._mass_tonne, self._newton = cell, n_cells, mass_tonne, newton
         self._shape: RodShape | None = None
+        self._step_kPa = _LARGEST_STEP_KPA
         self.reached_kPa = 0.0
 
     def inflate(self, target_kPa: float) -> tuple[CellResponse, RodShape]:
-        """Go on to a pressure in steps, the cell bearing the mean load of the row one step before."""
-        parts = max(1, int(np.ceil((target_kPa - self.reached_kPa) / _LARGEST_STEP_KPA - 1e-9)))
-        steps = [float(step) for step in np.linspace(self.reached_kPa, target_kPa, parts + 1)[1:]]
-        for pressure in steps[:-1]:
-            self._step(pressure)
-        return self._step(steps[-1])
+        """Go on to a pressure in steps, halved where the cell finds no equilibrium.
+
+        Raises
+        ------
+        NotConvergedError, ArithmeticError
+            If a step no larger than `_SMALLEST_STEP_KPA` fails.
+        """
+        while True:
+            parts = max(1, int(np.ceil((target_kPa - self.reached_kPa) / self._step_kPa - 1e-9)))
+            size = (target_kPa - self.reached_kPa) / parts
+            try:
+                result = self._step(self.reached_kPa + size if parts > 1 else target_kPa)
+            except NotConvergedError:
+                if size <= _SMALLEST_STEP_KPA:
+                    raise
+                self._step_kPa = 0.5 * size
+                continue
+            self._step_kPa = min(1.5 * self._step_kPa, _LARGEST_STEP_KPA)
+            if parts == 1:
+                return result
 
     def _step(self, pressure_kPa: float) -> tuple[CellResponse, RodShape]:
+        """Inflate the cell, which bears the mean load of the row one step before."""
         moment, tension = (0.0, 0.0) if self._shape is None else _mean_load(self._shape)
         response = self._cell.respond(SectionLoad(1e-3 * pressure_kPa, moment, tension), self._newton)
         self._shape = hang(response, n_cells=self._n_cells, mass_tonne=self._mass_tonne, start=self._shape)

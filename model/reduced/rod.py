@@ -71,10 +71,9 @@ def _shape(cell: CellResponse, loads: FloatArray) -> tuple[FloatArray, FloatArra
     """Axis points and face angles of the row, each cell's chord halfway between its faces' normals."""
     excess = loads - np.array([cell.load.moment_Nmm, cell.load.tension_N])
     turn = cell.angle + excess @ cell.compliance[0]
-    distance = cell.distance_mm + excess @ cell.compliance[1]
+    chord = cell.chord_mm + excess @ cell.compliance[1]
     angles = np.concatenate([[0.0], np.cumsum(turn)])
     middle = 0.5 * (angles[:-1] + angles[1:])
-    chord = distance / np.cos(0.5 * turn)
     steps = chord[:, None] * np.column_stack([np.sin(middle), np.cos(middle)])
     return np.vstack([np.zeros(2), np.cumsum(steps, axis=0)]), angles
 

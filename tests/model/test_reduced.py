@@ -9,6 +9,7 @@ from spavision.model.geometry import ActuatorGeometry
 from spavision.model.newton import NewtonSettings
 from spavision.model.outputs import mode_change
 from spavision.model.reduced.cell import Cell, CellResponse, SectionLoad
+from spavision.model.reduced.one_thread import one_thread
 from spavision.model.reduced.ramp import LARGEST_VOLUME_RATIO, simulate_reduced
 from spavision.model.reduced.rod import hang
 from spavision.model.simulate import SimulationSettings, simulate
@@ -41,13 +42,14 @@ def test_rod_bears_what_hangs_below() -> None:
 
 
 def test_compliance_of_the_cell_against_differences() -> None:
-    cell = Cell(ActuatorGeometry(), crimp_ratio=0.2, settings=DRAFT)
-    for pressure in (0.005, 0.01, 0.015, 0.02):
-        middle = cell.respond(SectionLoad(pressure, 0.0, 0.0), TIGHT)
-    bent = cell.respond(SectionLoad(0.02, 0.1, 0.0), TIGHT)
-    pulled = cell.respond(SectionLoad(0.02, 0.0, 0.01), TIGHT)
+    with one_thread():
+        cell = Cell(ActuatorGeometry(), crimp_ratio=0.2, settings=DRAFT)
+        for pressure in (0.005, 0.01, 0.015, 0.02):
+            middle = cell.respond(SectionLoad(pressure, 0.0, 0.0), TIGHT)
+        bent = cell.respond(SectionLoad(0.02, 0.1, 0.0), TIGHT)
+        pulled = cell.respond(SectionLoad(0.02, 0.0, 0.01), TIGHT)
     for other, column, size in ((bent, 0, 0.1), (pulled, 1, 0.01)):
-        change = np.array([other.angle - middle.angle, other.distance_mm - middle.distance_mm]) / size
+        change = np.array([other.angle - middle.angle, other.chord_mm - middle.chord_mm]) / size
         np.testing.assert_allclose(change, middle.compliance[:, column], rtol=2e-3)
     np.testing.assert_allclose(middle.compliance, middle.compliance.T, rtol=1e-6)
 

@@ -14,6 +14,7 @@ from spavision.tables import read_toml
 FILE_NAME = "experiment.toml"
 
 PositiveLength = Annotated[float, Field(gt=0, le=1000, allow_inf_nan=False)]
+Sigma = Annotated[float, Field(ge=0, le=1000, allow_inf_nan=False)]
 Pressure = Annotated[float, Field(ge=0, le=10000, allow_inf_nan=False)]
 CrimpRatio = Annotated[float, Field(ge=0.1, le=0.4, allow_inf_nan=False)]
 
@@ -31,6 +32,9 @@ class BoardSection(_Section):
     scale: float = Field(
         1.0, ge=0.8, le=1.25, description="true over nominal length of 100 squares, by ruler"
     )
+    sigma_scale: Sigma = Field(
+        0.0005, description="standard uncertainty of scale: 0.0005 is 0.125 mm in 250 mm"
+    )
 
 
 class CameraSection(_Section):
@@ -43,6 +47,8 @@ class CameraSection(_Section):
         None, ge=50, le=20000, description="camera to board, along the normal, mm"
     )
     file: str | None = Field(None, description="camera.toml of spavision calibrate")
+    sigma_standoff_mm: Sigma = Field(0.5, description="standard uncertainty of standoff_mm, mm")
+    sigma_distance_mm: Sigma = Field(5.0, description="standard uncertainty of distance_mm, mm")
 
 
 class MarkerSection(_Section):
@@ -55,6 +61,9 @@ class MarkerSection(_Section):
     )
     base_diameter_mm: float | None = Field(
         None, gt=0.2, le=50, description="its diameter, mm; the first dot's unless given"
+    )
+    sigma_out_of_plane_mm: Sigma = Field(
+        0.2, description="standard uncertainty of the dot's motion towards the camera, mm"
     )
 
 

@@ -4,6 +4,7 @@ import pytest
 
 from spavision.errors import InputError
 from spavision.experiment import Experiment, read_experiment
+from spavision.vision.settings import TrackSettings
 
 
 def write(folder, text):
@@ -67,3 +68,11 @@ def test_defaults_are_the_model_s():
     assert actuator.body_material == SimulationSettings().body_material
     assert actuator.strip_b_material == SimulationSettings().strip_b_material
     assert Experiment().model.mesh == SimulationSettings().mesh_level
+
+
+def test_defaults_of_uncertainties_are_the_trackers_own():
+    said, own = Experiment(), TrackSettings()
+    assert said.camera.sigma_standoff_mm == own.sigma_standoff_mm
+    assert said.camera.sigma_distance_mm == own.sigma_distance_mm
+    assert said.board.sigma_scale == own.sigma_board_scale
+    assert said.marker.sigma_out_of_plane_mm == own.sigma_out_of_plane_mm

@@ -122,16 +122,18 @@ def measure(place: Path, experiment: Experiment, *, results: ResultsFolder, quie
 
 
 def write_measurement(results: ResultsFolder, measurement: Measurement) -> DrawnPhotos:
-    """Write ``track.csv``, ``shape.csv``, overlays and the montage; return what the report shows of them."""
+    """Write tables (track, budget, shape), overlays and the montage; return what the report shows of them."""
     from spavision.correlate.report import Picture
     from spavision.vision.overlay import montage, montage_layout, montage_tile, overlay
     from spavision.vision.photos import read_photo
+    from spavision.vision.result import budget_table
     from spavision.vision.shape_series import shape_table
 
     track = measurement.track
     paths = {path.name: path for path in measurement.series.photos}
     largest = measurement.series.settings.largest_megapixels
     results.write_text("track.csv", csv_text(track.tip_path.table()))
+    results.write_text("budget.csv", csv_text(budget_table(track)))
     results.write_text("shape.csv", csv_text(shape_table(measurement.shapes, track)))
     tiles, small = [], {}
     tile_height_px, columns = montage_layout(len(track.readings))

@@ -22,6 +22,10 @@ PHOTO_OPTIONS = {
     "standoff_mm": ("camera", "standoff_mm"),
     "distance_mm": ("camera", "distance_mm"),
     "camera": ("camera", "file"),
+    "sigma_standoff_mm": ("camera", "sigma_standoff_mm"),
+    "sigma_distance_mm": ("camera", "sigma_distance_mm"),
+    "sigma_board_scale": ("board", "sigma_scale"),
+    "sigma_out_of_plane_mm": ("marker", "sigma_out_of_plane_mm"),
     "marker_colour": ("marker", "colour"),
     "marker_diameter_mm": ("marker", "diameter_mm"),
     "base_marker_colour": ("marker", "base_colour"),
@@ -67,10 +71,29 @@ def experiment_option(command: Command) -> Command:
     )(command)
 
 
+def _sigma_options() -> list[Callable[[Command], Command]]:
+    """Return the options that say how well the set-up is known; the experiment file's defaults are theirs."""
+    known = Experiment()
+    texts = {
+        "--sigma-out-of-plane-mm": (
+            "the marker's motion towards the camera",
+            known.marker.sigma_out_of_plane_mm,
+        ),
+        "--sigma-board-scale": ("--board-scale", known.board.sigma_scale),
+        "--sigma-distance-mm": ("--distance-mm", known.camera.sigma_distance_mm),
+        "--sigma-standoff-mm": ("--standoff-mm", known.camera.sigma_standoff_mm),
+    }
+    return [
+        click.option(name, type=float, help=f"Standard uncertainty of {what} [default: {value:g}].")
+        for name, (what, value) in texts.items()
+    ]
+
+
 def photo_options(command: Command) -> Command:
     """Add the options that describe the photographs and the set-up."""
     for option in (
         click.option("--largest-megapixels", type=float, help="Refuse larger photos [default: 200]."),
+        *_sigma_options(),
         click.option(
             "--pressure-step-kpa",
             type=float,

@@ -14,6 +14,9 @@ import click
 if TYPE_CHECKING:
     import pandas as pd
 
+TEXT_COLUMNS = ("remark", "basis")
+"""Columns of whole sentences, which may be folded."""
+
 PLAIN_WIDTH = 160
 """Columns of a table that is not printed to a terminal."""
 
@@ -36,14 +39,15 @@ def print_json(content: Mapping[str, Any]) -> None:
 
 
 def print_table(title: str, header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    """Print a table on standard output; numbers right-aligned, the last column left-aligned."""
+    """Print a table on standard output; numbers right-aligned, texts (`TEXT_COLUMNS`) left-aligned."""
     from rich.console import Console
     from rich.table import Table
     from rich.text import Text
 
     table = Table(title=title, title_justify="left", title_style="bold")
     for name in header:
-        table.add_column(name, justify="left" if name == "remark" else "right", no_wrap=name != "remark")
+        text = name in TEXT_COLUMNS
+        table.add_column(name, justify="left" if text else "right", no_wrap=not text)
     for row in rows:
         table.add_row(*(Text(cell) for cell in row))
     # A pipe or a log has no width of its own: the table must not be folded to 80 columns there.

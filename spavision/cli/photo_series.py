@@ -132,16 +132,22 @@ class _Beside:
 
         board, camera, marker = self.experiment.board, self.experiment.camera, self.experiment.marker
         file = self.camera()
+        calibrated = None if file is None else read_camera(file)
         return TrackSettings(
             square_mm=board.square_mm,
             board_scale=board.scale,
             standoff_mm=camera.standoff_mm,
             distance_mm=camera.distance_mm,
-            camera=None if file is None else read_camera(file).camera,
+            camera=None if calibrated is None else calibrated.camera,
+            camera_covariance=None if calibrated is None else calibrated.covariance,
             marker_colour=marker.colour,
             marker_diameter_mm=marker.diameter_mm,
             base_marker_colour=marker.base_colour,
             base_marker_diameter_mm=marker.base_diameter_mm,
+            sigma_standoff_mm=camera.sigma_standoff_mm,
+            sigma_distance_mm=camera.sigma_distance_mm,
+            sigma_board_scale=board.sigma_scale,
+            sigma_out_of_plane_mm=marker.sigma_out_of_plane_mm,
             largest_megapixels=self.experiment.photos.largest_megapixels,
         )
 

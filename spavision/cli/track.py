@@ -109,5 +109,7 @@ def _report(measurement: Measurement, folder: Path, *, as_json: bool, quiet: boo
         ]
         header = ["photo", "pressure kPa", "x mm", "σ x mm", "y mm", "σ y mm", "remark"]
         output.print_table("Measured tip path", header, rows)
+        budget_header, *budget = measurement.budget_rows()
+        output.print_table("Uncertainty budget", budget_header, budget)
         output.print_lines(measurement.notes)
     output.print_lines([f"Results: {folder}"])

@@ -67,12 +67,13 @@ def _contradictions(evidence: Evidence, places: Places) -> list[str]:
     notes = []
     given = settings.distance_mm
     if (
-        fit.source == "given"
+        fit.source in ("given", "calibration")
         and given is not None
         and abs(fit.distance_mm - given) > UNLIKELY_SIGMAS * settings.sigma_distance_mm
     ):
+        speaks = "the calibrated camera" if fit.source == "calibration" else "the board's perspective"
         notes.append(
-            f"the board's perspective speaks for a camera at {fit.distance_mm:.0f} mm against the "
+            f"{speaks} speaks for a distance of {fit.distance_mm:.0f} mm against the "
             f"{given:g} mm that were given: check the distance, the square size, and that all photos are of "
             "one set-up"
         )

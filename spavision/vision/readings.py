@@ -7,8 +7,8 @@ import numpy as np
 from spavision.tip_path import TipPath
 
 from .arrays import FloatArray
+from .budget import BudgetEntry, SetUp, uncertainty_budget
 from .camera import project
-from .displacement import BudgetEntry, uncertainty_budget
 from .evidence import Evidence
 from .places import Places
 from .registration import LEAST_CERTAINTY, SMALLEST_CERTAINTY
@@ -34,13 +34,13 @@ def budget_of(evidence: Evidence, places: Places) -> tuple[BudgetEntry, ...]:
     """Return the uncertainty of each displacement, source by source, the base marker's share at the end."""
     reference = places.tip[places.reference]
     assert reference is not None
-    settings, standoff = evidence.settings, evidence.standoff_mm
-    budget = uncertainty_budget(places.tip, reference, evidence.fit, settings, standoff)
+    set_up = SetUp(evidence.fit, evidence.settings, evidence.standoff_mm)
+    budget = uncertainty_budget(places.tip, reference, set_up)
     if not places.base:
         return budget
     base = places.base[places.reference]
     assert base is not None
-    own = uncertainty_budget(places.base, base, evidence.fit, settings, standoff)
+    own = uncertainty_budget(places.base, base, set_up)
     unread = np.array([place is None for place in places.tip])
     sigma_ux, sigma_uy = (
         np.where(unread, np.nan, np.sqrt(np.sum([getattr(entry, name) ** 2 for entry in own], axis=0)))

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import pandas as pd
+
 from spavision.tip_path import TipPath
 
 from .arrays import FloatArray, IntArray
+from .budget import BudgetEntry
 from .camera import Camera, Pose
-from .displacement import BudgetEntry
 
 
 @dataclass(frozen=True)
@@ -107,3 +109,22 @@ class Track:
     readings: tuple[Reading, ...]
     budget: tuple[BudgetEntry, ...]
     notes: tuple[str, ...]
+
+
+def budget_table(track: Track) -> pd.DataFrame:
+    """Return the budget as one table: a row a photograph and source, both displacements' sigma, the basis."""
+    path = track.tip_path
+    parts = [
+        pd.DataFrame(
+            {
+                "pressure_kPa": path.pressure_kPa,
+                "photo": path.photo,
+                "source": entry.name,
+                "sigma_ux_mm": entry.sigma_ux_mm,
+                "sigma_uy_mm": entry.sigma_uy_mm,
+                "basis": entry.basis,
+            }
+        )
+        for entry in track.budget
+    ]
+    return pd.concat(parts, ignore_index=True)

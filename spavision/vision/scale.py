@@ -11,7 +11,8 @@ from spavision.errors import InputError
 from .adjustment import N_INTRINSIC, Adjustment, Priors, View, adjust, distance_gradient
 from .arrays import FloatArray
 from .board import provisional_priors
-from .camera import Camera
+from .camera import Camera, Pose
+from .camera_variants import one_sigma_cameras
 from .grid import spread_subset
 from .refill import FINAL_CORNERS, FIT_CORNERS
 from .settings import TrackSettings
@@ -23,6 +24,14 @@ LARGEST_FITTED_SIGMA = 0.03
 
 EXIF_SIGMA = 0.07
 """Relative uncertainty of a focal length from EXIF."""
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A camera that the calibrated one may be, with the poses that the corners then give."""
+
+    camera: Camera
+    poses: tuple[Pose, ...]
 
 
 @dataclass(frozen=True)
@@ -39,6 +48,8 @@ class CameraFit:
         ``calibration``, ``given``, ``fit``, ``exif`` or ``none``.
     priors : Priors
         What entered the adjustment beside the corners.
+    variants : tuple of Variant
+        Of a calibrated camera: what else the camera may be, one standard deviation off each.
     """
 
     adjustment: Adjustment
@@ -46,6 +57,7 @@ class CameraFit:
     sigma_distance_mm: float
     source: str
     priors: Priors
+    variants: tuple[Variant, ...] = ()
 
 
 def fit_camera(
@@ -85,7 +97,8 @@ def fit_camera(
                 f"the calibrated camera is for {camera.width}×{camera.height} px, the photographs have "
                 f"{size[0]}×{size[1]} px; calibrate with photographs of the same size"
             )
-        return _finish(stations, views, Priors(camera, sigma_log_focal=0.0), square, "calibration")
+        fit = _finish(stations, views, Priors(camera, sigma_log_focal=0.0), square, "calibration")
+        return _with_variants(fit, _full_views(stations, square), settings.camera_covariance)
     if settings.distance_mm is not None:
         focal = _pixels_per_mm(views[0]) * settings.distance_mm
         measured = {
@@ -110,18 +123,36 @@ def fit_camera(
 def _finish(stations: Stations, views: list[View], priors: Priors, square: float, source: str) -> CameraFit:
     """Adjust to the thinned views, then once more to all corners."""
     rough = adjust(views, priors, least_gain=1.0)
-    largest = max(FIT_CORNERS, FINAL_CORNERS // max(1, len(views) // 4))
-    full = [
-        _thinned(indices.astype(float) * square, pixels, largest)
-        for indices, pixels in zip(stations.indices, stations.pixels, strict=True)
-    ]
-    adjustment = adjust(full, priors, start=rough)
+    adjustment = adjust(_full_views(stations, square), priors, start=rough)
     slope = distance_gradient(adjustment.poses[0])
     place = slice(N_INTRINSIC, N_INTRINSIC + 6)
     variance = float(slope @ adjustment.covariance[place, place] @ slope)
     return CameraFit(
         adjustment, adjustment.poses[0].distance_mm, float(np.sqrt(max(variance, 0.0))), source, priors
     )
+
+
+def _with_variants(fit: CameraFit, views: list[View], covariance: FloatArray | None) -> CameraFit:
+    """Fit the poses to each camera that the calibrated one may be, and widen the distance's uncertainty."""
+    if covariance is None:
+        return fit
+    cameras = one_sigma_cameras(fit.adjustment.camera, covariance)
+    variants = []
+    for camera in cameras:
+        moved = adjust(views, Priors(camera, sigma_log_focal=0.0), start=fit.adjustment)
+        variants.append(Variant(camera, moved.poses))
+    away = [variant.poses[0].distance_mm - fit.distance_mm for variant in variants]
+    sigma = float(np.hypot(fit.sigma_distance_mm, np.linalg.norm(away)))
+    return replace(fit, sigma_distance_mm=sigma, variants=tuple(variants))
+
+
+def _full_views(stations: Stations, square: float) -> list[View]:
+    """Return all corners of each position, as many as the last adjustment takes."""
+    largest = max(FIT_CORNERS, FINAL_CORNERS // max(1, len(stations.indices) // 4))
+    return [
+        _thinned(indices.astype(float) * square, pixels, largest)
+        for indices, pixels in zip(stations.indices, stations.pixels, strict=True)
+    ]
 
 
 def _thinned(points_mm: FloatArray, pixels: FloatArray, largest: int) -> View:

@@ -8,6 +8,7 @@ import numpy as np
 
 from spavision.errors import InputError
 
+from .arrays import FloatArray
 from .camera import Camera
 from .photos import LARGEST_MEGAPIXELS
 
@@ -28,6 +29,9 @@ class TrackSettings:
         Measured perpendicular distance from the camera to the board.
     camera : Camera or None
         Calibrated camera; its parameters are then kept.
+    camera_covariance : array, shape (9, 9), or None
+        Covariance of its `spavision.vision.bundle.PARAMETERS`; None where it is not known, and the camera is
+        taken for exact.
     marker_colour : str
         A colour's name or ``#rrggbb``.
     marker_diameter_mm : float or None
@@ -56,6 +60,7 @@ class TrackSettings:
     standoff_mm: float | None = None
     distance_mm: float | None = None
     camera: Camera | None = None
+    camera_covariance: FloatArray | None = None
     marker_colour: str = "red"
     marker_diameter_mm: float | None = None
     base_marker_colour: str | None = None

@@ -26,6 +26,10 @@ def test_a_folder_becomes_a_tip_path_overlays_and_a_montage(spavision, photos, t
     table = pd.read_csv(tmp_path / "out" / "track.csv")
     error = table[["ux_mm", "uy_mm"]].to_numpy() - truth_of(A_FEW)
     assert np.abs(error).max() < 0.1  # what the issue asks of the sample sets
+    budget = pd.read_csv(tmp_path / "out" / "budget.csv")
+    variance = budget.groupby("pressure_kPa")["sigma_ux_mm"].apply(lambda sigma: (sigma**2).sum())
+    assert np.sqrt(variance).to_numpy() == pytest.approx(table["sigma_ux_mm"].to_numpy(), rel=1e-5)
+    assert all(basis in outcome.out for basis in ("±0.5 mm", "±5 mm", "±0.05 %", "±0.2 mm"))
     shapes = pd.read_csv(tmp_path / "out" / "shape.csv")
     assert set(shapes["photo"]) == set(A_FEW)
     assert shapes.groupby("photo")["arc_mm"].apply(lambda arc: arc.is_monotonic_increasing).all()
@@ -51,8 +55,18 @@ def test_the_same_input_gives_the_same_files(spavision, photos, tmp_path):
 
 
 def test_an_option_goes_before_the_experiment_file(spavision, photos, tmp_path):
-    spavision("track", photos, "-o", "out", "--standoff-mm", "10")
-    assert json.loads((tmp_path / "out" / "run.json").read_text())["track"]["standoff_mm"] == 10
+    sigmas = ("--sigma-standoff-mm", "2", "--sigma-distance-mm", "20", "--sigma-board-scale", "0")
+    spavision("track", photos, "-o", "out", "--standoff-mm", "10", *sigmas, "--sigma-out-of-plane-mm", "1")
+    record = json.loads((tmp_path / "out" / "run.json").read_text())["track"]
+    assert record["standoff_mm"] == 10
+    budget = {entry["source"]: entry for entry in record["budget"]}
+    for source, stated in {"stand-off": "±2 mm", "distance": "±20 mm", "out of plane": "±1 mm"}.items():
+        assert budget[source]["basis"].startswith(stated)
+    # A millimetre of stand-off is a share of 1/750 of the reading in the board's plane.
+    furthest = np.abs(truth_of(A_FEW)).max()
+    assert budget["stand-off"]["largest_sigma_uy_mm"] < budget["stand-off"]["largest_sigma_ux_mm"]
+    assert budget["stand-off"]["largest_sigma_ux_mm"] == pytest.approx(2.0 * furthest / 750.0, rel=0.05)
+    assert budget["print scale"]["largest_sigma_ux_mm"] == 0
 
 
 def test_without_a_standoff_the_reading_is_called_uncorrected(spavision, photos, tmp_path):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import erf
 
-from .arrays import FloatArray, FloatImage, RgbImage
+from .arrays import FloatArray, FloatImage, blur
 from .board import BoardView
 from .camera import project, to_plane
 from .circle import Circle
@@ -22,13 +22,14 @@ FIRST_BLUR_PX = 0.9
 BLUR_RANGE_PX = (0.4, 5.0)
 STEPS = 14
 FEWEST_PIXELS = 40
-REACH_SIGMAS = 3.0
+REACH_SIGMAS = 6.0
+"""Pixels of the rim itself disagree more than those beside it; what covers the disc does so far more."""
 
 LARGEST_MOVE_RADII = 0.25
 """A disc farther than this from the circle through the edge points is something else."""
 
-CORRELATED_PIXELS = 4.0
-"""Neighbouring pixels share their noise (demosaicing, JPEG): this many count as one."""
+CORRELATION_PX = 1.5
+"""Pixels this near share their error (demosaicing, JPEG, the smoothing): the reach of its covariance."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,7 @@ class Disc:
     sigma_px: float
 
 
-def fit_disc(image: FloatImage | RgbImage, board: BoardView, start: Circle) -> Disc | None:
+def fit_disc(image: FloatImage, board: BoardView, start: Circle) -> Disc | None:
     """Fit a blurred disc to the pixels about a rim; None where that fails.
 
     Inside and outside each have one level; pixels that disagree (a highlight, print, the body's edge) and
@@ -59,7 +60,7 @@ def fit_disc(image: FloatImage | RgbImage, board: BoardView, start: Circle) -> D
     Parameters
     ----------
     image : array, shape (height, width, 3)
-        Colours.
+        Colours, lightly smoothed: the zigzag that demosaicing leaves along coloured edges drops out.
     board : BoardView
         The board's lattice in this photograph.
     start : Circle
@@ -75,7 +76,8 @@ def fit_disc(image: FloatImage | RgbImage, board: BoardView, start: Circle) -> D
     used = seen & (distance > INNER_RADII)
     if direction is None or used.sum() < FEWEST_PIXELS:
         return None
-    model = _Model(plane[used], colours[used] @ direction, _pixels_per_square(board, start.centre))
+    per_square = _pixels_per_square(board, start.centre)
+    model = _Model(pixels[used], plane[used], colours[used] @ direction, per_square)
     return _settle(model, start)
 
 
@@ -94,15 +96,31 @@ def _settle(model: _Model, start: Circle) -> Disc | None:
     moved = np.abs(unknown[:3] - [*start.centre, start.radius]).max()
     if not moved < LARGEST_MOVE_RADII * start.radius or np.abs(step[:3]).max() > 0.01 * start.radius:
         return None
-    covariance = CORRELATED_PIXELS * sigma**2 * np.linalg.inv(normal)[:2, :2]
-    in_pixels = model.per_square @ covariance @ model.per_square.T
-    return Disc(unknown[:2], float(unknown[2]), float(np.sqrt(np.trace(in_pixels) / 2.0)))
+    pull = (weight * rest)[:, None] * design @ np.linalg.inv(normal)[:, :2] @ model.per_square.T
+    rim_px = 2.0 * np.pi * unknown[2] * np.sqrt(abs(np.linalg.det(model.per_square))) * start.support.mean()
+    return Disc(unknown[:2], float(unknown[2]), _scatter_px(model.pixels, pull, rim_px))
+
+
+def _scatter_px(pixels: FloatArray, pull_px: FloatArray, rim_px: float) -> float:
+    """Return the standard uncertainty of one coordinate of the centre, from the pull of each pixel's misfit.
+
+    The misfits' own correlation counts, whatever its cause: products of near pixels' pulls are summed with
+    weights that fall off with distance (White's covariance for correlated errors, Conley 1999). Centre and
+    radius have taken three of the rim's independent stretches to themselves.
+    """
+    row, column = (pixels - pixels.min(axis=0)).astype(np.intp).T[::-1]
+    pulls = np.zeros((row.max() + 1, column.max() + 1, 2), dtype=np.float32)
+    pulls[row, column] = pull_px
+    shared = 2.0 * np.pi * CORRELATION_PX**2 * blur(pulls, CORRELATION_PX)
+    stretches = rim_px / (np.sqrt(2.0 * np.pi) * CORRELATION_PX)
+    return float(np.sqrt(0.5 * (pulls * shared).sum() * stretches / max(stretches - 3.0, 1.0)))
 
 
 @dataclass(frozen=True)
 class _Model:
-    """Pixels in the plane of the board, their values, and pixels a square (2, 2) about the disc."""
+    """Pixels, where they lie in the plane of the board, their values, and pixels a square (2, 2) there."""
 
+    pixels: FloatArray
     plane: FloatArray
     values: FloatArray
     per_square: FloatArray
@@ -154,7 +172,7 @@ def _step_direction(inner: FloatArray, outer: FloatArray) -> FloatArray | None:
     return scaled
 
 
-def _window(image: FloatImage | RgbImage, board: BoardView, start: Circle) -> tuple[FloatArray, FloatArray]:
+def _window(image: FloatImage, board: BoardView, start: Circle) -> tuple[FloatArray, FloatArray]:
     """Pixels of a box around the disc, shape (n, 2), and their colours, shape (n, 3)."""
     angle = np.linspace(0.0, 2.0 * np.pi, 32, endpoint=False)
     ring = start.centre + REACH_RADII * start.radius * np.column_stack([np.cos(angle), np.sin(angle)])

@@ -104,7 +104,7 @@ def find_candidates(
         part, strength, FAINTEST_SHARE * colour_chroma(colour), low * board.pitch_px, high * board.pitch_px
     )
     offset = np.array([left, top], dtype=float)
-    found = [_examine(part, smooth, board, spot, offset) for spot in spots[:MOST_CANDIDATES]]
+    found = [_examine(smooth, board, spot, offset) for spot in spots[:MOST_CANDIDATES]]
     return tuple(
         c for c in found if c is not None and low < 2.0 * c.radius_squares < high and not _is_square(c)
     )
@@ -156,9 +156,7 @@ def _spots(
     return spots
 
 
-def _examine(
-    part: RgbImage, smooth: FloatImage, board: BoardView, spot: _Spot, offset: FloatArray
-) -> Candidate | None:
+def _examine(smooth: FloatImage, board: BoardView, spot: _Spot, offset: FloatArray) -> Candidate | None:
     """Measure a spot's rim; None when it has none."""
     local = _shifted(board, offset)
     place = to_plane(local.camera, local.pose, spot.centre_px[None])
@@ -168,7 +166,7 @@ def _examine(
     if found is None:
         return None
     rim, circle = found
-    disc = fit_disc(part, local, circle) if circle.coverage >= WHOLE else None
+    disc = fit_disc(smooth, local, circle) if circle.coverage >= WHOLE else None
     return Candidate(
         centre_px=project(local.camera, local.pose, circle.centre[None])[0] + offset,
         place_squares=circle.centre,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from scipy.fft import fft2, fftshift
@@ -144,27 +145,43 @@ def _tile_corners(shape: tuple[int, int], largest_number: int) -> IntArray:
 
 def _two_gratings(power: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Wave vectors (cycles a tile) of the strongest grating and its best partner; their share of power."""
-    n, half = len(power), TILE_PX // 2
+    places, crossing, counted = _wave_band()
+    flat = power.reshape(len(power), -1)
+    total = (flat @ counted) / 2.0 + 1e-12
+    searched = flat[:, places]
+    best = searched.argmax(axis=1)
+    partner = (searched * crossing[best]).argmax(axis=1)
+    first, energy_1 = _refine_peak(power, places[best])
+    second, energy_2 = _refine_peak(power, places[partner])
+    share = 2.0 * np.minimum(energy_1, energy_2) / total
+    return first, second, np.clip(share, 0.0, 1.0)
+
+
+@cache
+def _wave_band() -> tuple[IntArray, BoolArray, FloatArray]:
+    """Places in a tile's spectrum where a grating is looked for, and which of them may be a pair.
+
+    Returns
+    -------
+    places : int array, shape (m,)
+        Places in the flattened spectrum.
+    crossing : bool array, shape (m, m)
+        Pairs of about the same length that cross at a wide angle.
+    counted : array, shape (TILE_PX², )
+        1 where power counts towards the whole.
+    """
+    half = TILE_PX // 2
     fy, fx = np.mgrid[-half:half, -half:half]
     radius = np.hypot(fx, fy)
     lowest = max(LOWEST_CYCLES, TILE_PX / (np.sqrt(2.0) * PITCH_RANGE_PX[1]))
     highest = TILE_PX / (np.sqrt(2.0) * PITCH_RANGE_PX[0])
-    band = (radius > lowest) & (radius < highest) & (fy >= 0)
-    inner = power * ((radius > 1.5) & (radius < half - 1))
-    total = inner.sum(axis=(1, 2)) / 2.0 + 1e-12
-    searched = np.where(band, power, 0.0).reshape(n, -1)
-    best = searched.argmax(axis=1)
-    fx_flat, fy_flat, radius_flat = fx.ravel(), fy.ravel(), radius.ravel()
-    ratio = radius_flat[None, :] / np.maximum(radius_flat[best], 1e-6)[:, None]
-    cosine = (
-        fx_flat[None, :] * fx_flat[best][:, None] + fy_flat[None, :] * fy_flat[best][:, None]
-    ) / np.maximum(radius_flat[None, :] * radius_flat[best][:, None], 1e-6)
+    places = np.flatnonzero((radius > lowest) & (radius < highest) & (fy >= 0))
+    x, y, length = fx.ravel()[places], fy.ravel()[places], radius.ravel()[places]
+    ratio = length[None, :] / length[:, None]
+    cosine = (np.outer(x, x) + np.outer(y, y)) / np.outer(length, length)
     crossing = (ratio > 0.6) & (ratio < 1.67) & (np.abs(cosine) < 0.6)
-    partner = np.where(crossing, searched, 0.0).argmax(axis=1)
-    first, energy_1 = _refine_peak(power, best)
-    second, energy_2 = _refine_peak(power, partner)
-    share = 2.0 * np.minimum(energy_1, energy_2) / total
-    return first, second, np.clip(share, 0.0, 1.0)
+    counted = (radius > 1.5) & (radius < half - 1)
+    return places, crossing, counted.ravel().astype(np.float32)
 
 
 def _refine_peak(power: FloatArray, flat: IntArray) -> tuple[FloatArray, FloatArray]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from .actuator_mesh import actuator_mesh
@@ -10,6 +12,7 @@ from .equilibrium import Equilibrium
 from .geometry import ActuatorGeometry
 from .materials.library import find_material
 from .materials.solid import SolidMaterial
+from .materials.stiffness import stiffened
 from .simulation import SimulationSettings
 
 
@@ -22,18 +25,23 @@ def actuator_materials(*, crimp_ratio: float, settings: SimulationSettings) -> d
         If the crimp ratio or a material name is unusable.
     """
     solids = {
-        region: find_material(name).solid(bulk_to_shear=settings.bulk_to_shear)
-        for region, name in (
-            ("composite", settings.matrix_material),
-            ("strip A", settings.strip_a_material),
-            ("body", settings.body_material),
-            ("strip B", settings.strip_b_material),
+        region: _solid(name, stiffness, settings.bulk_to_shear)
+        for region, name, stiffness in (
+            ("composite", settings.matrix_material, settings.matrix_stiffness),
+            ("strip A", settings.strip_a_material, settings.body_stiffness),
+            ("body", settings.body_material, settings.body_stiffness),
+            ("strip B", settings.strip_b_material, settings.strip_b_stiffness),
         )
     }
     solids["composite"] = crimped_composite(
         solids["composite"], crimp_ratio=crimp_ratio, paper=settings.paper
     )
     return solids
+
+
+def _solid(name: str, stiffness: float, bulk_to_shear: float) -> SolidMaterial:
+    material = find_material(name)
+    return replace(material, law=stiffened(material.law, stiffness)).solid(bulk_to_shear=bulk_to_shear)
 
 
 def actuator_problem(
@@ -51,4 +59,6 @@ def actuator_problem(
     is_fixed = np.zeros((len(mesh.nodes_mm), 3), dtype=bool)
     is_fixed[mesh.node_sets["clamp"]] = True
     is_fixed[mesh.node_sets["symmetry"], 2] = True
-    return Equilibrium(mesh, solids, is_fixed=is_fixed)
+    tilt = np.deg2rad(settings.gravity_tilt_deg)
+    down = (float(np.sin(tilt)), float(np.cos(tilt)), 0.0)
+    return Equilibrium(mesh, solids, is_fixed=is_fixed, gravity_direction=down)

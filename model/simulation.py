@@ -32,9 +32,13 @@ class SimulationSettings:
         Names in the material library. Mold Star 15 is by default the two-term law, for the published
         three-term set (``Mold Star 15``) locks in biaxial stretch: with it the composite of crimp ratio 0.3
         is not straightened below 65 kPa, where the article's actuator had long turned round.
+    body_stiffness, strip_b_stiffness, matrix_stiffness : float
+        Factor on all stresses of the body with strip A, of strip B and of the matrix: scatter of batches.
     paper : PaperLayer
     gravity : bool
         Whether the actuator hangs under its own weight.
+    gravity_tilt_deg : float
+        By which the vertical leans from the actuator's axis at the clamp towards region B (+x).
     bulk_to_shear : float
         Bulk over initial shear modulus of every silicone (assumed: nearly incompressible).
     newton : NewtonSettings
@@ -50,8 +54,12 @@ class SimulationSettings:
     strip_a_material: str = "Mold Star 15 two-term"
     strip_b_material: str = "Mold Star 15 two-term"
     matrix_material: str = "Ecoflex 00-30"
+    body_stiffness: float = 1.0
+    strip_b_stiffness: float = 1.0
+    matrix_stiffness: float = 1.0
     paper: PaperLayer = field(default_factory=PaperLayer)
     gravity: bool = True
+    gravity_tilt_deg: float = 0.0
     bulk_to_shear: float = 1000.0
     newton: NewtonSettings = RAMP_NEWTON
     stepping: SteppingSettings = field(default_factory=SteppingSettings)

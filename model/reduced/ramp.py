@@ -84,9 +84,7 @@ def _inflated(
     axis = np.full((len(pressures_kPa), count + 1, 2), np.nan)
     marker = np.full((len(pressures_kPa), 2), np.nan)
     volume_ratio = np.full(len(pressures_kPa), np.nan)
-    row_of_cells = _Row(
-        cell, count, cell.mass_tonne if settings.gravity else 0.0, _tightened(settings.newton)
-    )
+    row_of_cells = _Row(cell, count, cell.mass_tonne if settings.gravity else 0.0, settings)
     reason = ""
     for row, target in enumerate(pressures_kPa):
         try:
@@ -111,8 +109,9 @@ def _tightened(newton: NewtonSettings) -> NewtonSettings:
 class _Row:
     """A cell and the row of cells like it, on the way up."""
 
-    def __init__(self, cell: Cell, n_cells: int, mass_tonne: float, newton: NewtonSettings) -> None:
-        self._cell, self._n_cells, self._mass_tonne, self._newton = cell, n_cells, mass_tonne, newton
+    def __init__(self, cell: Cell, n_cells: int, mass_tonne: float, settings: SimulationSettings) -> None:
+        self._cell, self._n_cells, self._mass_tonne = cell, n_cells, mass_tonne
+        self._newton, self._tilt = _tightened(settings.newton), float(np.deg2rad(settings.gravity_tilt_deg))
         self._shape: RodShape | None = None
         self._step_kPa = _LARGEST_STEP_KPA
         self.reached_kPa = 0.0
@@ -143,7 +142,13 @@ class _Row:
         """Inflate the cell, which bears the mean load of the row one step before."""
         moment, tension = (0.0, 0.0) if self._shape is None else _mean_load(self._shape)
         response = self._cell.respond(SectionLoad(1e-3 * pressure_kPa, moment, tension), self._newton)
-        self._shape = hang(response, n_cells=self._n_cells, mass_tonne=self._mass_tonne, start=self._shape)
+        self._shape = hang(
+            response,
+            n_cells=self._n_cells,
+            mass_tonne=self._mass_tonne,
+            start=self._shape,
+            tilt=self._tilt,
+        )
         self.reached_kPa = pressure_kPa
         return response, self._shape
 

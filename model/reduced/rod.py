@@ -36,7 +36,9 @@ class RodShape:
     tensions_N: FloatArray
 
 
-def hang(cell: CellResponse, *, n_cells: int, mass_tonne: float, start: RodShape | None) -> RodShape:
+def hang(
+    cell: CellResponse, *, n_cells: int, mass_tonne: float, start: RodShape | None, tilt: float = 0.0
+) -> RodShape:
     """Find the shape in which the weight and each cell's response, taken as linear, agree.
 
     Parameters
@@ -48,6 +50,8 @@ def hang(cell: CellResponse, *, n_cells: int, mass_tonne: float, start: RodShape
         Of one cell; 0 leaves gravity out.
     start : RodShape or None
         A guess.
+    tilt : float
+        By which the vertical leans from the axis at the clamp towards +x, in rad.
 
     Raises
     ------
@@ -57,9 +61,10 @@ def hang(cell: CellResponse, *, n_cells: int, mass_tonne: float, start: RodShape
     loads = (
         np.zeros((n_cells, 2)) if start is None else np.column_stack([start.moments_Nmm, start.tensions_N])
     )
+    weight = mass_tonne * GRAVITY_MM_PER_S2 * np.array([np.sin(tilt), np.cos(tilt)])
     for _ in range(_MAX_ITERATIONS):
         shape = _shape(cell, loads)
-        wanted = _section_loads(shape, mass_tonne * GRAVITY_MM_PER_S2)
+        wanted = _section_loads(shape, weight)
         change = wanted - loads
         loads = loads + _DAMPING * change
         if np.abs(change).max() < _LARGEST_CHANGE * (1.0 + np.abs(wanted).max()):
@@ -78,16 +83,16 @@ def _shape(cell: CellResponse, loads: FloatArray) -> tuple[FloatArray, FloatArra
     return np.vstack([np.zeros(2), np.cumsum(steps, axis=0)]), angles
 
 
-def _section_loads(shape: tuple[FloatArray, FloatArray], cell_weight_N: float) -> FloatArray:
-    """Moment and tension in the middle of each cell from the weight (along +y) below it."""
+def _section_loads(shape: tuple[FloatArray, FloatArray], cell_weight_N: FloatArray) -> FloatArray:
+    """Moment and tension in the middle of each cell from the weight (x and y components) below it."""
     points, angles = shape
     middle = 0.5 * (points[:-1] + points[1:])
     direction = 0.5 * (angles[:-1] + angles[1:])
     count = len(middle)
     below = np.arange(count)[None, :] > np.arange(count)[:, None]
     share = below + 0.5 * np.eye(count)
-    lever = middle[None, :, 0] - middle[:, None, 0]
+    lever = middle[None, :, :] - middle[:, None, :]
     # A weight below at larger x turns the row back, against the bend towards +x.
-    moment = -cell_weight_N * np.sum(share * lever, axis=1)
-    tension = cell_weight_N * share.sum(axis=1) * np.cos(direction)
-    return np.column_stack([moment, tension])
+    moment = np.sum(share * (cell_weight_N[0] * lever[..., 1] - cell_weight_N[1] * lever[..., 0]), axis=1)
+    along = cell_weight_N[0] * np.sin(direction) + cell_weight_N[1] * np.cos(direction)
+    return np.column_stack([moment, share.sum(axis=1) * along])

@@ -76,3 +76,11 @@ def test_first_extremum_is_the_full_model_s(crimp_ratio: float) -> None:
     (kPa, mm, _), (full_kPa, full_mm, _) = (mode_change(pressures, path.ux_mm) for path in (reduced, full))
     assert mm == pytest.approx(full_mm, rel=0.04)
     assert kPa == pytest.approx(full_kPa, rel=0.04)
+
+
+def test_leaning_row_is_bent_by_its_weight() -> None:
+    """Straight row, the vertical 30° aside: ½ of each weight below bends, cos 30° of it pulls; by hand."""
+    mass = 0.2 / WEIGHT_ON_EARTH
+    row = hang(stiff_cell(0.0), n_cells=2, mass_tonne=mass, start=None, tilt=np.pi / 6.0)
+    assert row.moments_Nmm == pytest.approx([0.5 * 0.2 * 10.0, 0.0])
+    assert row.tensions_N == pytest.approx(np.cos(np.pi / 6.0) * 0.2 * np.array([1.5, 0.5]))

@@ -59,6 +59,8 @@ class ReportContent:
         Heading of the page.
     summary : Summary
         The comparison.
+    sentences : sequence of str
+        The main findings.
     frames : sequence of Frame
         One a pressure, in order.
     pictures : sequence of Picture
@@ -73,6 +75,7 @@ class ReportContent:
 
     title: str
     summary: Summary
+    sentences: Sequence[str] = ()
     frames: Sequence[Frame] = ()
     pictures: Sequence[Picture] = ()
     notes: Sequence[str] = ()
@@ -92,7 +95,6 @@ def report_html(content: ReportContent) -> str:
     discrepancy = content.summary.discrepancy
     return environment.get_template("report.html").render(
         content=content,
-        sentences=content.summary.sentences(),
         rows=_rows(content.summary),
         path_plot=Markup(path_plot(discrepancy)),
         pressure_plot=Markup(pressure_plot(discrepancy)),

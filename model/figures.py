@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
@@ -15,7 +17,22 @@ from .observe import locate
 from .simulation import Simulation
 
 _MARGIN_MM = 8.0
-_COLOURS = "viridis"
+STRETCH_COLOURS = "viridis"
+
+
+@dataclass(frozen=True)
+class _Axes:
+    """Axes in the x-y plane that a picture is drawn in: an origin, and the sense of each."""
+
+    origin_mm: FloatArray
+    sense: FloatArray
+
+    def place(self, points_mm: FloatArray) -> FloatArray:
+        """Return x and y of points, shape (..., 3), in these axes."""
+        return np.asarray((points_mm[..., :2] - self.origin_mm) * self.sense)
+
+
+_OWN_AXES = _Axes(np.zeros(2), np.ones(2))
 
 
 def deformed_shapes(simulation: Simulation, *, panels: int = 6) -> Figure:
@@ -58,7 +75,7 @@ def deformed_shapes(simulation: Simulation, *, panels: int = 6) -> Figure:
     figure.supxlabel("x in mm (first bend to the right)", fontsize="medium")
     figure.suptitle(f"Deformed side face, crimp ratio {simulation.crimp_ratio:g}", fontsize="medium")
     figure.colorbar(
-        ScalarMappable(norm, _COLOURS), ax=list(axes), label="largest principal stretch", shrink=0.8
+        ScalarMappable(norm, STRETCH_COLOURS), ax=list(axes), label="largest principal stretch", shrink=0.8
     )
     return figure
 
@@ -74,31 +91,65 @@ def deformed_state(simulation: Simulation, row: int) -> Figure:
     """
     reached = np.flatnonzero(simulation.tip_path.has_reading)
     elements, faces = _side_faces(simulation)
-    last = element_fields(simulation, int(reached[-1])).largest_stretch[elements]
-    norm = Normalize(1.0, float(last.max()))
+    norm = stretch_range(simulation)
     x_range, y_range = _frame(simulation, reached)
     figure = Figure(figsize=(5.0, 5.0), layout="constrained")
     axis = figure.add_subplot()
     _draw_side(axis, simulation, row, faces, element_fields(simulation, row).largest_stretch[elements], norm)
     axis.set(xlim=x_range, ylim=y_range[::-1], xlabel="x in mm", ylabel="y in mm (down)")
-    figure.colorbar(ScalarMappable(norm, _COLOURS), ax=axis, label="largest principal stretch", shrink=0.8)
+    figure.colorbar(
+        ScalarMappable(norm, STRETCH_COLOURS), ax=axis, label="largest principal stretch", shrink=0.8
+    )
     return figure
 
 
+def draw_from_rest(axis: Axes, simulation: Simulation, row: int, *, mirrored: bool = False) -> None:
+    """Draw the deformed side face into axes whose origin is the tracked point at the lowest pressure.
+
+    Parameters
+    ----------
+    axis : matplotlib Axes
+        x to the right, y down, mm.
+    simulation : Simulation
+    row : int
+        Which of the asked pressures; it must have been reached.
+    mirrored : bool
+        Whether the first bend goes to the left.
+    """
+    elements, faces = _side_faces(simulation)
+    stretch = element_fields(simulation, row).largest_stretch[elements]
+    axes_of_photo = _Axes(simulation.marker_at_rest_mm[:2], np.array([-1.0 if mirrored else 1.0, 1.0]))
+    _draw_side(axis, simulation, row, faces, stretch, stretch_range(simulation), axes_of_photo)
+
+
+def stretch_range(simulation: Simulation) -> Normalize:
+    """Return the colour range of the largest principal stretch that all pressures share."""
+    elements, _ = _side_faces(simulation)
+    last = int(np.flatnonzero(simulation.tip_path.has_reading)[-1])
+    return Normalize(1.0, float(element_fields(simulation, last).largest_stretch[elements].max()))
+
+
 def _draw_side(
-    axis: Axes, simulation: Simulation, row: int, faces: IntArray, values: FloatArray, norm: Normalize
+    axis: Axes,
+    simulation: Simulation,
+    row: int,
+    faces: IntArray,
+    values: FloatArray,
+    norm: Normalize,
+    axes: _Axes = _OWN_AXES,
 ) -> None:
     position = simulation.mesh.nodes_mm + simulation.displacement_mm[row]
-    outlines = position[faces][..., :2]
+    outlines = axes.place(position[faces])
     axis.add_collection(
         PolyCollection(
-            list(outlines), array=values, cmap=_COLOURS, norm=norm, edgecolors="white", linewidths=0.15
+            list(outlines), array=values, cmap=STRETCH_COLOURS, norm=norm, edgecolors="white", linewidths=0.15
         )
     )
     marker = np.array(simulation.geometry.marker_position_mm)
     way = marker + locate(simulation.mesh, marker).displacement(simulation.displacement_mm[: row + 1])
+    way = axes.place(way)
     axis.plot(way[:, 0], way[:, 1], color="red", linewidth=0.8)
-    axis.plot(*way[-1, :2], "o", color="red", markersize=4.0)
+    axis.plot(*way[-1], "o", color="red", markersize=4.0)
     axis.set_aspect("equal")
     axis.set_title(f"{simulation.tip_path.pressure_kPa[row]:g} kPa", fontsize="small")
     axis.tick_params(labelsize="small")

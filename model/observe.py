@@ -50,9 +50,10 @@ def locate(mesh: HexMesh, position_mm: FloatArray) -> MaterialPoint:
 
 
 def centre_line(mesh: HexMesh, geometry: ActuatorGeometry, displacement_mm: FloatArray) -> FloatArray:
-    """Return the deformed material mid-line in the x-y plane.
+    """Return the deformed mid-line of the whole section in the x-y plane, as a camera sees it.
 
-    The line joins the points halfway up the body on its side face, from clamp to tip.
+    The line joins the points of the side face halfway between the composite's and strip B's outer faces,
+    from clamp to tip.
 
     Parameters
     ----------
@@ -64,7 +65,7 @@ def centre_line(mesh: HexMesh, geometry: ActuatorGeometry, displacement_mm: Floa
     -------
     array, shape (..., n_points, 2)
     """
-    x = geometry.body_base_mm + 0.5 * geometry.height_mm
+    x = 0.5 * (geometry.body_base_mm + geometry.height_mm + geometry.strip_b_mm)
     stations = np.linspace(0.0, geometry.length_mm, 4 * geometry.void_count + 1)
     positions = np.array([(x, y, 0.5 * geometry.width_mm) for y in stations])
     points = [locate(mesh, position) for position in positions]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from spavision.tip_path import TipPath
 
 from .composite import PaperLayer
@@ -12,6 +14,7 @@ from .elements import FloatArray
 from .geometry import ActuatorGeometry
 from .hex_mesh import HexMesh
 from .newton import NewtonSettings
+from .observe import locate
 from .volume_control import VolumeStepping
 
 RAMP_NEWTON = NewtonSettings(
@@ -143,3 +146,18 @@ class Simulation:
     stopped_at_kPa: float | None
     stop_reason: str
     solver_name: str
+
+    @property
+    def marker_at_rest_mm(self) -> FloatArray:
+        """Place of the tracked point at the lowest pressure reached, shape (3,).
+
+        Raises
+        ------
+        ValueError
+            If no pressure was reached.
+        """
+        reached = np.flatnonzero(self.tip_path.has_reading)
+        if len(reached) == 0:
+            raise ValueError("no pressure was reached, so there is no place at rest")
+        marker = np.array(self.geometry.marker_position_mm)
+        return marker + locate(self.mesh, marker).displacement(self.displacement_mm[int(reached[0])])

@@ -5,19 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from spavision.errors import InputError
-from spavision.results import ResultsFolder, versions
+from spavision.results import ResultsFolder
 
-from .measure import DrawnPhotos, write_measurement
+from .measure import write_measurement
 from .measured_side import MeasuredSide
-from .model_run import run_model, simulation_record, state_pictures, write_simulation
-from .output import csv_text, number
+from .model_run import run_model, simulation_record, write_simulation
+from .output import csv_text
 from .pictures import figure_bytes
+from .report_page import photo_pictures, report_content
+from .shape_comparison import compare_shapes
 
 if TYPE_CHECKING:
-    from spavision.correlate.report import Frame, ReportContent
+    from spavision.correlate.centre_lines import ShapeDiscrepancy
     from spavision.correlate.summary import Summary
     from spavision.model.simulate import Simulation
 
@@ -29,6 +29,7 @@ class Comparison:
     side: MeasuredSide
     simulation: Simulation
     summary: Summary
+    shape: ShapeDiscrepancy | None
 
     @property
     def title(self) -> str:
@@ -51,8 +52,13 @@ class Comparison:
             "experiment": self.side.source.experiment.model_dump(),
             **self.side.record,
             "simulation": simulation_record(self.simulation),
-            "summary": self.summary.sentences(),
+            "summary": self.sentences(),
         }
+
+    def sentences(self) -> list[str]:
+        """Say the main findings on tip and shape, one sentence each."""
+        shape = [] if self.shape is None else [self.shape.sentence()]
+        return [*self.summary.sentences(), *shape]
 
 
 def compare_with_model(side: MeasuredSide, *, quiet: bool) -> Comparison:
@@ -82,7 +88,12 @@ def compare_with_model(side: MeasuredSide, *, quiet: bool) -> Comparison:
     modelled = discrepancy.modelled
     mesh_mm = numerical_uncertainty_mm(experiment.model.mesh, modelled.ux_mm, modelled.uy_mm)
     known = ModelUncertainty(mesh_x_mm=mesh_mm, mesh_y_mm=mesh_mm)
-    return Comparison(side, simulation, summarise(discrepancy, known))
+    return Comparison(
+        side,
+        simulation,
+        summarise(discrepancy, known),
+        compare_shapes(side.measurement, simulation, first_bend=experiment.actuator.first_bend),
+    )
 
 
 def write_comparison(results: ResultsFolder, comparison: Comparison) -> None:
@@ -92,8 +103,13 @@ def write_comparison(results: ResultsFolder, comparison: Comparison) -> None:
 
     discrepancy = comparison.summary.discrepancy
     measurement = comparison.side.measurement
-    drawn = None if measurement is None else write_measurement(results, measurement)
+    photos = photo_pictures(comparison)
+    montage = None
+    if measurement is not None:
+        montage = write_measurement(results, measurement, show=photos.show if photos is not None else None)
     write_simulation(results, comparison.simulation)
+    if comparison.shape is not None:
+        results.write_text("shape_discrepancy.csv", csv_text(comparison.shape.table()))
     results.write_text("discrepancy.csv", csv_text(discrepancy.table()))
     figures = {
         "path": path_figure(discrepancy, title=comparison.title),
@@ -102,68 +118,5 @@ def write_comparison(results: ResultsFolder, comparison: Comparison) -> None:
     for name, figure in figures.items():
         for ending in ("png", "svg"):
             results.write_bytes(f"figures/{name}.{ending}", figure_bytes(figure, ending))
-    results.write_text("report.html", report_html(_report_content(comparison, drawn)))
+    results.write_text("report.html", report_html(report_content(comparison, photos, montage)))
     results.write_record(comparison.record())
-
-
-def _report_content(comparison: Comparison, drawn: DrawnPhotos | None) -> ReportContent:
-    from spavision.correlate.report import ReportContent
-
-    measurement = comparison.side.measurement
-    tables = {
-        "Error against validation uncertainty (V&V 20)": _validation_rows(comparison.summary),
-        "Steps of the model": _step_rows(comparison.simulation),
-    }
-    if measurement is not None:
-        tables = {"Uncertainty budget of the readings": measurement.budget_rows(), **tables}
-    return ReportContent(
-        title=comparison.title,
-        summary=comparison.summary,
-        frames=_frames(comparison, drawn),
-        pictures=[drawn.montage] if drawn is not None else [],
-        notes=comparison.notes,
-        tables=tables,
-        record={**comparison.record(), "versions": versions()},
-    )
-
-
-def _frames(comparison: Comparison, drawn: DrawnPhotos | None) -> list[Frame]:
-    """Pair the photo and the model's state at each pressure."""
-    from spavision.correlate.report import Frame
-
-    photos = drawn.by_pressure_kPa if drawn is not None else {}
-    states = state_pictures(comparison.simulation)
-    pressures = comparison.summary.discrepancy.pressure_kPa.tolist()
-    return [Frame(pressure, photos.get(pressure), states.get(pressure)) for pressure in pressures]
-
-
-def _validation_rows(summary: Summary) -> list[list[str]]:
-    header = ["pressure kPa", "component", "error mm", "u_val mm", "u_num mm", "u_D mm", "verdict"]
-    rows = [header]
-    for row in np.flatnonzero(summary.discrepancy.is_common):
-        for name, validation in (("x", summary.validation_x), ("y", summary.validation_y)):
-            numbers = (
-                validation.error_mm[row],
-                validation.u_val_mm[row],
-                validation.u_num_mm[row],
-                validation.u_data_mm[row],
-            )
-            verdict = "differ significantly" if validation.is_significant[row] else "within 2 u_val"
-            pressure = f"{summary.discrepancy.pressure_kPa[row]:g}"
-            rows.append([pressure, name, *(number(value, 3) for value in numbers), verdict])
-    return rows
-
-
-def _step_rows(simulation: Simulation) -> list[list[str]]:
-    header = ["pressure kPa", "Newton iterations", "relative residual", "enclosed volume cm³", "stable"]
-    rows = [
-        [
-            f"{step.pressure_kPa:.2f}",
-            str(step.newton_iterations),
-            f"{step.residual:.1e}",
-            f"{step.enclosed_volume_mm3 / 1000:.2f}",
-            "unknown" if step.negative_pivots is None else "no" if step.negative_pivots else "yes",
-        ]
-        for step in simulation.steps
-    ]
-    return [header, *rows]

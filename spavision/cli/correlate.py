@@ -52,7 +52,7 @@ def _report(comparison: Comparison, folder: Path, *, as_json: bool, quiet: bool)
         output.print_json(
             {
                 "discrepancy": output.records(frame),
-                "summary": comparison.summary.sentences(),
+                "summary": comparison.sentences(),
                 "output": str(folder),
             }
         )
@@ -80,5 +80,5 @@ def _report(comparison: Comparison, folder: Path, *, as_json: bool, quiet: bool)
         ]
         title = f"{comparison.title}: tip in mm, Δ = modelled − measured"
         output.print_table(title, [*header.values(), "remark"], rows)
-        output.print_lines(comparison.summary.sentences())
+        output.print_lines(comparison.sentences())
     output.print_lines([f"Report: {folder / 'report.html'}"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,11 +21,9 @@ from .shapes import measure_shapes
 
 if TYPE_CHECKING:
     from spavision.correlate.report import Picture
+    from spavision.vision.arrays import RgbImage
     from spavision.vision.shape import ShapeReading
     from spavision.vision.track import Track
-
-REPORT_PHOTO_PX = 900
-"""Longest side of the photos in the report: readable, and the page stays small enough to send."""
 
 
 @dataclass(frozen=True)
@@ -82,14 +81,6 @@ class Measurement:
         return [header, *rows]
 
 
-@dataclass(frozen=True)
-class DrawnPhotos:
-    """Small pictures kept from the overlays for the report: one a pressure, and the montage."""
-
-    by_pressure_kPa: dict[float, Picture]
-    montage: Picture
-
-
 def measure(place: Path, experiment: Experiment, *, results: ResultsFolder, quiet: bool) -> Measurement:
     """Track the photos of a folder, or the frames of a video, which are written to ``results``.
 
@@ -121,8 +112,13 @@ def measure(place: Path, experiment: Experiment, *, results: ResultsFolder, quie
     return Measurement(found, series, shapes, actuator.void_count * actuator.pitch_mm)
 
 
-def write_measurement(results: ResultsFolder, measurement: Measurement) -> DrawnPhotos:
-    """Write tables (track, budget, shape), overlays and the montage; return what the report shows of them."""
+def write_measurement(
+    results: ResultsFolder, measurement: Measurement, *, show: Callable[[int, RgbImage], None] | None = None
+) -> Picture:
+    """Write tables (track, budget, shape), overlays and the montage; return the montage.
+
+    Each overlay is handed to ``show`` with its row, so that no photo need be read again.
+    """
     from spavision.correlate.report import Picture
     from spavision.vision.overlay import montage, montage_layout, montage_tile, overlay
     from spavision.vision.photos import read_photo
@@ -135,7 +131,7 @@ def write_measurement(results: ResultsFolder, measurement: Measurement) -> Drawn
     results.write_text("track.csv", csv_text(track.tip_path.table()))
     results.write_text("budget.csv", csv_text(budget_table(track)))
     results.write_text("shape.csv", csv_text(shape_table(measurement.shapes, track)))
-    tiles, small = [], {}
+    tiles = []
     tile_height_px, columns = montage_layout(len(track.readings))
     for row, reading in enumerate(track.readings):
         if not len(reading.corners_px):
@@ -144,16 +140,11 @@ def write_measurement(results: ResultsFolder, measurement: Measurement) -> Drawn
         drawn = overlay(photo, track, row, shape=measurement.shapes[row].shape)
         results.write_bytes(f"overlays/{Path(reading.photo).stem}.jpg", jpeg(drawn))
         tiles.append(montage_tile(photo, track, row, height_px=tile_height_px))
-        small[reading.pressure_kPa] = Picture(
-            jpeg(drawn, longest_side_px=REPORT_PHOTO_PX),
-            "image/jpeg",
-            f"{reading.photo} with what was measured",
-        )
+        if show is not None:
+            show(row, drawn)
     sheet = jpeg(montage(tiles, columns=columns))
     results.write_bytes("figures/montage.jpg", sheet)
-    return DrawnPhotos(
-        small, Picture(sheet, "image/jpeg", "The photos in order of pressure, the tip marked.")
-    )
+    return Picture(sheet, "image/jpeg", "The photos in order of pressure, the tip marked.")
 
 
 def _largest(sigma_mm: FloatArray) -> float:

@@ -6,19 +6,15 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from spavision.errors import InputError
 from spavision.experiment import Experiment
 from spavision.results import ResultsFolder
 from spavision.tip_path import FloatArray
 
 from .output import csv_text
-from .pictures import figure_bytes
 from .progress import progress_bar
 
 if TYPE_CHECKING:
-    from spavision.correlate.report import Picture
     from spavision.model.reduced.ramp import ReducedSimulation
     from spavision.model.simulate import Simulation, SimulationSettings
 
@@ -123,22 +119,6 @@ def write_simulation(results: ResultsFolder, simulation: Simulation) -> None:
     fields = results.path / "fields"
     write_vtu_series(simulation, fields)
     results.adopt(fields)
-
-
-def state_pictures(simulation: Simulation) -> dict[float, Picture]:
-    """Draw the deformed actuator at each pressure reached, all to one scale."""
-    from spavision.correlate.report import Picture
-    from spavision.model.figures import deformed_state
-
-    path = simulation.tip_path
-    return {
-        float(path.pressure_kPa[row]): Picture(
-            figure_bytes(deformed_state(simulation, int(row)), "png"),
-            "image/png",
-            f"The model at {path.pressure_kPa[row]:g} kPa.",
-        )
-        for row in np.flatnonzero(path.has_reading)
-    }
 
 
 def simulation_record(simulation: Simulation) -> dict[str, Any]:

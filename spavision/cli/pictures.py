@@ -17,24 +17,21 @@ JPEG_QUALITY = 88
 FIGURE_DPI = 160
 
 
-def jpeg(image: NDArray[np.uint8], *, longest_side_px: int | None = None) -> bytes:
-    """Encode an RGB picture, shape (height, width, 3), as JPEG, scaled down where it is larger than asked."""
+def jpeg(image: NDArray[np.uint8]) -> bytes:
+    """Encode an RGB picture, shape (height, width, 3), as JPEG."""
     from PIL import Image
 
-    picture = Image.fromarray(image)
-    if longest_side_px is not None:
-        picture.thumbnail((longest_side_px, longest_side_px))
     buffer = io.BytesIO()
-    picture.save(buffer, format="JPEG", quality=JPEG_QUALITY)
+    Image.fromarray(image).save(buffer, format="JPEG", quality=JPEG_QUALITY)
     return buffer.getvalue()
 
 
-def figure_bytes(figure: Figure, ending: str) -> bytes:
-    """Encode a figure as ``png`` or ``svg`` without the date and random names that matplotlib adds."""
+def figure_bytes(figure: Figure, ending: str, *, dpi: int = FIGURE_DPI) -> bytes:
+    """Encode a figure as ``png``, ``jpg`` or ``svg`` without the date and names that matplotlib adds."""
     import matplotlib as mpl
 
-    metadata: dict[str, Any] = {"Date": None} if ending == "svg" else {}
+    metadata: dict[str, Any] | None = {"Date": None} if ending == "svg" else None
     buffer = io.BytesIO()
     with mpl.rc_context({"svg.hashsalt": "spavision", "svg.fonttype": "none"}):
-        figure.savefig(buffer, format=ending, dpi=FIGURE_DPI, metadata=metadata)
+        figure.savefig(buffer, format=ending, dpi=dpi, metadata=metadata)
     return buffer.getvalue()

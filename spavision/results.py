@@ -7,6 +7,7 @@ import json
 import os
 import platform
 import tempfile
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from importlib import metadata
 from pathlib import Path
@@ -51,6 +52,7 @@ class ResultsFolder:
     def __init__(self, path: Path, *, force: bool = False) -> None:
         self.path = path
         self._written: list[str] = []
+        self._inputs: dict[Path, str] = {}
         if path.exists() and not path.is_dir():
             raise InputError(f"--output {path}: is a file, expected a folder; choose another name")
         if path.is_dir() and any(path.iterdir()) and not force:
@@ -103,10 +105,29 @@ class ResultsFolder:
         files = sorted(path for path in folder.rglob("*") if path.is_file())
         self._written += [path.relative_to(self.path).as_posix() for path in files]
 
+    def record_inputs(self, paths: Iterable[Path]) -> list[str]:
+        """Take files that the run reads into the record, and return the SHA-256 digest of each."""
+        digests = {path: sha256(path) for path in paths}
+        self._inputs |= digests
+        return list(digests.values())
+
     def write_record(self, record: Mapping[str, Any]) -> Path:
-        """Write ``run.json``: the given record, package versions and the list of files written."""
-        content = {**record, "versions": versions(), "files": sorted({*self._written, RECORD_NAME})}
+        """Write ``run.json``: the given record, inputs, package versions and the list of files written."""
+        content = {
+            **record,
+            "inputs": self._inputs_by_name(),
+            "versions": versions(),
+            "files": sorted({*self._written, RECORD_NAME}),
+        }
         return self.write_text(RECORD_NAME, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
+
+    def _inputs_by_name(self) -> dict[str, str]:
+        """Return the digests by file name, or by path where two files share a name."""
+        names = Counter(path.name for path in self._inputs)
+        return {
+            path.name if names[path.name] == 1 else path.as_posix(): digest
+            for path, digest in self._inputs.items()
+        }
 
     def _remove_earlier_run(self) -> None:
         for name in _files_of_earlier_run(self.path / RECORD_NAME):
@@ -135,6 +156,16 @@ def versions() -> dict[str, str]:
     return found
 
 
-def sha256(paths: Iterable[Path]) -> dict[str, str]:
-    """Return the SHA-256 digest of each input file, by file name."""
-    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in paths}
+def sha256(path: Path) -> str:
+    """Return the SHA-256 digest of a file, read piece by piece: a video may be larger than the memory.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read.
+    """
+    try:
+        with path.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read ({error.strerror}); check its permissions") from error

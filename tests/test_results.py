@@ -1,5 +1,6 @@
 """The results folder: whole files, nothing lost, an earlier run's files replaced only when asked."""
 
+import hashlib
 import json
 
 import pytest
@@ -70,4 +71,25 @@ def test_digest_is_the_published_one(tmp_path):
     path.write_bytes(b"abc")
     # FIPS 180-2, appendix B.1.
     expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
-    assert sha256([path]) == {"abc.txt": expected}
+    assert sha256(path) == expected
+
+
+def test_the_record_holds_the_digest_of_each_input(tmp_path):
+    for folder in ("first", "second"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "tension.csv").write_text(folder)
+    (tmp_path / "experiment.toml").write_text("")
+    results = ResultsFolder(tmp_path / "run")
+    results.record_inputs([tmp_path / "first" / "tension.csv", tmp_path / "experiment.toml"])
+    results.record_inputs([tmp_path / "second" / "tension.csv"])
+    inputs = json.loads(results.write_record({}).read_text())["inputs"]
+    assert inputs["experiment.toml"] == hashlib.sha256(b"").hexdigest()
+    # Two files of one name are told apart by their folders.
+    assert {digest for name, digest in inputs.items() if name.endswith("tension.csv")} == {
+        hashlib.sha256(folder.encode()).hexdigest() for folder in ("first", "second")
+    }
+
+
+def test_an_input_that_cannot_be_read_is_refused(tmp_path):
+    with pytest.raises(InputError, match="cannot be read"):
+        ResultsFolder(tmp_path / "run").record_inputs([tmp_path / "photo.jpg"])

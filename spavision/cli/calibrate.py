@@ -106,7 +106,6 @@ def _write(
 ) -> None:
     import dataclasses
 
-    from spavision.results import sha256
     from spavision.vision.camera_file import write_camera
     from spavision.vision.coverage_figure import coverage_figure
 
@@ -114,12 +113,12 @@ def _write(
 
     results.write("camera.toml", lambda path: write_camera(path, calibration))
     results.write_bytes("figures/coverage.png", figure_bytes(coverage_figure(calibration), "png"))
+    results.record_inputs(paths)
     results.write_record(
         {
             "command": "calibrate",
             "settings": dataclasses.asdict(settings),
             "calibration": record,
-            "inputs": sha256(paths),
         }
     )
 

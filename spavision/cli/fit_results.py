@@ -18,7 +18,7 @@ from spavision.model.fitting.transition import StrainTransition, strain_transiti
 from spavision.model.materials.curves import UNIAXIAL
 from spavision.model.materials.law_tables import law_to_table
 from spavision.model.materials.material_files import Material, material_text
-from spavision.results import ResultsFolder, sha256
+from spavision.results import ResultsFolder
 
 from .output import csv_text, number
 from .pictures import figure_bytes
@@ -110,13 +110,13 @@ def write_fit_run(
     results.write_text("curves.csv", csv_text(_curve_table(run)))
     results.write_text("report.txt", "\n\n".join(fit_report(fit) for fit in run.fits) + "\n")
     _write_figure(results, fit_figure(run.fits, transitions=_transitions_to_draw(run)))
+    results.record_inputs(inputs)
     results.write_record(
         {
             "command": "fit",
             "options": {
                 key: str(value) if isinstance(value, Path) else value for key, value in options.items()
             },
-            "inputs": {str(path): sha256([path])[path.name] for path in inputs},
             "fit": fit_run_record(run),
         }
     )

@@ -47,7 +47,6 @@ class Measurement:
         """Return what ``run.json`` keeps of the measurement."""
         track = self.track
         return {
-            "inputs": self.series.inputs,
             "camera_distance_mm": track.distance_mm,
             "camera_distance_source": track.distance_source,
             "standoff_mm": track.standoff_mm,

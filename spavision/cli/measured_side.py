@@ -10,10 +10,10 @@ import numpy as np
 
 from spavision.errors import InputError
 from spavision.experiment import Experiment
-from spavision.results import ResultsFolder, sha256
+from spavision.results import ResultsFolder
 from spavision.tip_path import FloatArray, TipPath
 
-from .options import MODEL_OPTIONS, PHOTO_OPTIONS, experiment_for
+from .options import MODEL_OPTIONS, PHOTO_OPTIONS, experiment_file, experiment_for
 from .samples import nearest_sample_set
 
 if TYPE_CHECKING:
@@ -30,6 +30,7 @@ class Source:
     table: Path | None = None
     pressure_unit: str = "kPa"
     notes: tuple[str, ...] = ()
+    experiment_file: Path | None = None
 
     @property
     def place(self) -> str:
@@ -84,12 +85,14 @@ def choose_source(
         raise InputError("--photos and --measured name two measured sides; give one of them")
     if table is not None:
         experiment = experiment_for(None, given["experiment"], given, options)
-        return Source(table.stem, experiment, table=table, pressure_unit=pressure_unit)
+        file = experiment_file(None, given["experiment"])
+        return Source(table.stem, experiment, table=table, pressure_unit=pressure_unit, experiment_file=file)
     if photos is not None:
         return Source(
             photos.resolve().name,
             experiment_for(photos, given["experiment"], given, options),
             photos=photos,
+            experiment_file=experiment_file(photos, given["experiment"]),
         )
     if given["crimp"] is None:
         raise InputError(
@@ -114,6 +117,7 @@ def _sample_source(given: dict[str, Any], options: dict[str, tuple[str, str]]) -
         experiment_for(folder, given["experiment"], given, options),
         photos=folder,
         notes=notes,
+        experiment_file=experiment_file(folder, given["experiment"]),
     )
 
 
@@ -129,6 +133,7 @@ def take_measurement(source: Source, *, results: ResultsFolder, quiet: bool) -> 
 
     from .measure import measure
 
+    results.record_inputs([] if source.experiment_file is None else [source.experiment_file])
     if source.photos is not None:
         measurement = measure(source.photos, source.experiment, results=results, quiet=quiet)
         return MeasuredSide(measurement.track.tip_path, source, measurement, {"track": measurement.record()})
@@ -138,6 +143,7 @@ def take_measurement(source: Source, *, results: ResultsFolder, quiet: bool) -> 
             f"--pressure-unit {source.pressure_unit!r}: expected one of {', '.join(PRESSURE_UNITS_kPa)}"
         )
     path = read_tip_path(source.table, pressure_unit=source.pressure_unit)
+    results.record_inputs([source.table])
     if not np.any(path.has_reading):
         raise InputError(f"{source.table}: no row holds a displacement; fill ux_mm and uy_mm")
-    return MeasuredSide(path, source, None, {"inputs": sha256([source.table])})
+    return MeasuredSide(path, source, None)

@@ -158,11 +158,8 @@ def experiment_for(
     InputError
         If the file or an option is not valid.
     """
-    experiment = Experiment()
-    if named is not None:
-        experiment = read_experiment(named)
-    elif photos is not None and (_home(photos) / FILE_NAME).is_file():
-        experiment = read_experiment(_home(photos) / FILE_NAME)
+    file = experiment_file(photos, named)
+    experiment = Experiment() if file is None else read_experiment(file)
     overlay: dict[str, dict[str, Any]] = {}
     for option, (section, key) in names.items():
         if given.get(option) is not None:
@@ -176,6 +173,14 @@ def experiment_for(
     if ways == ["pressures_kpa"]:
         overlay["photos"]["list_kPa"] = parse_pressures(given["pressures_kpa"]).tolist()
     return experiment.with_options(overlay)
+
+
+def experiment_file(photos: Path | None, named: Path | None) -> Path | None:
+    """Return the experiment file asked for, or the one beside the photos; None where there is none."""
+    if named is not None or photos is None:
+        return named
+    beside = _home(photos) / FILE_NAME
+    return beside if beside.is_file() else None
 
 
 def _home(photos: Path) -> Path:

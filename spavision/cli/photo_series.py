@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from spavision.errors import InputError
 from spavision.experiment import Experiment
-from spavision.results import ResultsFolder, sha256
+from spavision.results import ResultsFolder
 from spavision.tables import numbers, read_columns
 from spavision.tip_path import FloatArray
 
@@ -34,8 +34,6 @@ class PhotoSeries:
     settings : TrackSettings
     corrections : dict of str to Correction
         By file name.
-    inputs : dict of str to str
-        SHA-256 of each file that was read, by name.
     notes : tuple of str
         What the user should know, a sentence each.
     """
@@ -44,7 +42,6 @@ class PhotoSeries:
     pressure_kPa: FloatArray
     settings: TrackSettings
     corrections: dict[str, Correction] = field(default_factory=dict)
-    inputs: dict[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
 
@@ -58,7 +55,7 @@ def photo_series(place: Path, experiment: Experiment, *, results: ResultsFolder)
     experiment : Experiment
         What is said of the set-up.
     results : ResultsFolder
-        Where the frames of a video go.
+        Where the frames of a video go, and the digests of all files that are read.
 
     Raises
     ------
@@ -77,9 +74,9 @@ def photo_series(place: Path, experiment: Experiment, *, results: ResultsFolder)
     else:
         photos, notes = find_photos(place), ()
         pressure_kPa = beside.pressures([path.name for path in photos])
-    digests = sha256(photos)
-    inputs = {**digests, **sha256([*beside.files(), *([place] if is_video(place) else [])])}
-    return PhotoSeries(photos, pressure_kPa, settings, corrections, inputs, (*notes, *_twins(digests)))
+    results.record_inputs([*beside.files(), *([place] if is_video(place) else [])])
+    digests = results.record_inputs(photos)
+    return PhotoSeries(photos, pressure_kPa, settings, corrections, (*notes, *_twins(photos, digests)))
 
 
 @dataclass(frozen=True)
@@ -168,11 +165,11 @@ def _pressure_table(path: Path) -> pd.DataFrame:
     return pd.DataFrame({"photo": columns["photo"], "pressure_kPa": pressure_kPa})
 
 
-def _twins(digests: dict[str, str]) -> list[str]:
+def _twins(photos: list[Path], digests: list[str]) -> list[str]:
     """Say which photos are the same file twice."""
     alike: dict[str, list[str]] = defaultdict(list)
-    for name, digest in digests.items():
-        alike[digest].append(name)
+    for path, digest in zip(photos, digests, strict=True):
+        alike[digest].append(path.name)
     return [
         f"{' and '.join(names)} are the same file, byte for byte: at most one of their pressures is right"
         for names in alike.values()

@@ -64,6 +64,7 @@ def render(
     path = _trajectory(trajectory, crimp)
     results = ResultsFolder(output, force=force)
     _write(results, settings, path, quiet=quiet)
+    results.record_inputs([given for given in (scene, trajectory) if given is not None])
     results.write_record({"command": "render", "settings": dataclasses.asdict(settings)})
     print_lines([f"Photos: {output}"])
 

@@ -50,6 +50,7 @@ def simulate(pressures_kpa: str, write_deck: Path | None, model: str, **given: A
     pressures = parse_pressures(pressures_kpa)
     name = f"crimp-{experiment.actuator.crimp_ratio or 0:.2f}"
     results = ResultsFolder(given["output"] or output.default_output("simulate", name), force=given["force"])
+    results.record_inputs([] if given["experiment"] is None else [given["experiment"]])
     if write_deck is not None:
         write_model_deck(write_deck, experiment, pressures, force=given["force"])
     if model == "reduced":

@@ -37,11 +37,13 @@ def track(photos: Path, **given: Any) -> None:
 
     from . import output
     from .measure import measure, write_measurement
-    from .options import experiment_for
+    from .options import experiment_file, experiment_for
 
     experiment = experiment_for(photos, given["experiment"], given, PHOTO_OPTIONS)
     name = photos.resolve().name
     results = ResultsFolder(given["output"] or output.default_output("track", name), force=given["force"])
+    experiment_path = experiment_file(photos, given["experiment"])
+    results.record_inputs([] if experiment_path is None else [experiment_path])
     measurement = measure(photos, experiment, results=results, quiet=given["quiet"])
     write_measurement(results, measurement)
     results.write_record(

@@ -34,7 +34,7 @@ def test_corrections_are_honoured_marked_and_left_alone_and_strict_tells_them(sp
     ]
     assert "rejected: tube was kinked" in outcome.out
     assert len(list((tmp_path / "out" / "overlays").iterdir())) == 3
-    assert "corrections.csv" in json.loads((tmp_path / "out" / "run.json").read_text())["track"]["inputs"]
+    assert "corrections.csv" in json.loads((tmp_path / "out" / "run.json").read_text())["inputs"]
     assert file.read_text() == text
 
 

@@ -1,5 +1,6 @@
 """``spavision track`` from folder to files, and each input it refuses."""
 
+import hashlib
 import json
 
 import numpy as np
@@ -36,7 +37,9 @@ def test_a_folder_becomes_a_tip_path_overlays_and_a_montage(spavision, photos, t
     assert len(list((tmp_path / "out" / "overlays").iterdir())) == 3
     assert Image.open(tmp_path / "out" / "figures" / "montage.jpg").width > 500
     record = json.loads((tmp_path / "out" / "run.json").read_text())
-    assert set(record["track"]["inputs"]) == set(A_FEW)
+    assert set(record["inputs"]) == {*A_FEW, "experiment.toml"}
+    for name, digest in record["inputs"].items():
+        assert digest == hashlib.sha256((photos / name).read_bytes()).hexdigest()
     assert record["experiment"]["camera"]["standoff_mm"] == 20.0
 
 

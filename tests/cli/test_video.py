@@ -38,7 +38,7 @@ def test_a_video_is_read_at_its_holds(spavision, clip, tmp_path):
     frames = sorted(path.name for path in (tmp_path / "out" / "frames").iterdir())
     assert table["photo"].tolist() == frames
     record = json.loads((tmp_path / "out" / "run.json").read_text())
-    assert set(record["track"]["inputs"]) == {*frames, "clip.avi", "holds.csv"}
+    assert set(record["inputs"]) == {*frames, "clip.avi", "holds.csv", "experiment.toml"}
     assert f"frames/{frames[0]}" in record["files"]
 
 

@@ -16,6 +16,7 @@ FILE_NAME = "experiment.toml"
 PositiveLength = Annotated[float, Field(gt=0, le=1000, allow_inf_nan=False)]
 Sigma = Annotated[float, Field(ge=0, le=1000, allow_inf_nan=False)]
 Pressure = Annotated[float, Field(ge=0, le=10000, allow_inf_nan=False)]
+Stiffness = Annotated[float, Field(ge=0.1, le=10, allow_inf_nan=False)]
 CrimpRatio = Annotated[float, Field(ge=0.1, le=0.4, allow_inf_nan=False)]
 
 
@@ -124,10 +125,54 @@ class ActuatorSection(_Section):
         2.0, description="channel that connects the voids, mm (assumed)"
     )
 
+    body_stiffness: Stiffness = Field(
+        1.0, description="factor on all stresses of the body's and strip A's silicone"
+    )
+    strip_b_stiffness: Stiffness = Field(1.0, description="factor on all stresses of strip B's silicone")
+    bulk_to_shear: float = Field(
+        1000.0, ge=20, le=100000, description="bulk over initial shear modulus of the silicones (assumed)"
+    )
+    gravity_tilt_deg: float = Field(
+        0.0,
+        ge=-90,
+        le=90,
+        description="lean of the vertical from the clamped axis to region B, degrees",
+    )
+
     def geometry(self) -> dict[str, Any]:
         """Return the lengths and counts that describe the shape, by key."""
-        other = {"crimp_ratio", "first_bend", "body_material", "strip_b_material"}
-        return self.model_dump(exclude=other)
+        return self.model_dump(exclude=set(_NOT_GEOMETRY))
+
+
+_NOT_GEOMETRY = (
+    "crimp_ratio",
+    "first_bend",
+    "body_material",
+    "strip_b_material",
+    "body_stiffness",
+    "strip_b_stiffness",
+    "bulk_to_shear",
+    "gravity_tilt_deg",
+)
+
+
+class CompositeSection(_Section):
+    """The crimped-paper composite of region A: soft matrix, and paper that is slack at first."""
+
+    matrix_material: str = Field("Ecoflex 00-30", description="silicone around the paper")
+    matrix_stiffness: Stiffness = Field(1.0, description="factor on all stresses of that silicone")
+    paper_transition_factor: float = Field(
+        0.690, ge=0.1, le=1.2, description="strain at which the paper is taut over that of the straight wave"
+    )
+    paper_transition_half_width: float = Field(
+        0.1, ge=0.005, le=0.5, description="half the range of strain over which it becomes taut (assumed)"
+    )
+    paper_length_modulus_MPa: float = Field(
+        10.0, ge=0.01, le=500, description="stiffness along the actuator once taut, MPa (assumed)"
+    )
+    paper_width_modulus_MPa: float = Field(
+        10.0, ge=0, le=500, description="stiffness across the width, along the folds, MPa (assumed)"
+    )
 
 
 class ModelSection(_Section):
@@ -144,6 +189,7 @@ class Experiment(_Section):
     marker: MarkerSection = MarkerSection()
     photos: PhotosSection = PhotosSection()
     actuator: ActuatorSection = ActuatorSection()
+    composite: CompositeSection = CompositeSection()
     model: ModelSection = ModelSection()
 
     def with_options(self, options: dict[str, dict[str, Any]]) -> Experiment:

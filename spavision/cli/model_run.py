@@ -16,7 +16,7 @@ from .progress import progress_bar
 
 if TYPE_CHECKING:
     from spavision.model.reduced.ramp import ReducedSimulation
-    from spavision.model.simulate import Simulation, SimulationSettings
+    from spavision.model.simulate import Simulation
 
 
 def run_model(experiment: Experiment, pressure_kPa: FloatArray, *, quiet: bool) -> Simulation:
@@ -27,15 +27,16 @@ def run_model(experiment: Experiment, pressure_kPa: FloatArray, *, quiet: bool) 
     InputError
         If the crimp ratio is not known, or geometry, materials or pressures are not valid.
     """
-    from spavision.model.geometry import ActuatorGeometry
+    from spavision.correlate.model_inputs import model_inputs
     from spavision.model.simulate import simulate
 
+    inputs = model_inputs(experiment)
     with progress_bar("model", total=float(pressure_kPa.max()), quiet=quiet) as advance:
         return simulate(
-            ActuatorGeometry(**experiment.actuator.geometry()),
-            crimp_ratio=_crimp_ratio(experiment),
+            inputs.geometry,
+            crimp_ratio=inputs.crimp_ratio,
             pressures_kPa=pressure_kPa,
-            settings=_settings(experiment),
+            settings=inputs.settings,
             progress=lambda reached_kPa: advance(f"{reached_kPa:.0f} kPa", reached_kPa),
         )
 
@@ -48,14 +49,15 @@ def run_reduced_model(experiment: Experiment, pressure_kPa: FloatArray) -> Reduc
     InputError
         As `run_model`.
     """
-    from spavision.model.geometry import ActuatorGeometry
+    from spavision.correlate.model_inputs import model_inputs
     from spavision.model.reduced.ramp import simulate_reduced
 
+    inputs = model_inputs(experiment)
     return simulate_reduced(
-        ActuatorGeometry(**experiment.actuator.geometry()),
-        crimp_ratio=_crimp_ratio(experiment),
+        inputs.geometry,
+        crimp_ratio=inputs.crimp_ratio,
         pressures_kPa=pressure_kPa,
-        settings=_settings(experiment),
+        settings=inputs.settings,
     )
 
 
@@ -67,42 +69,24 @@ def write_model_deck(path: Path, experiment: Experiment, pressure_kPa: FloatArra
     InputError
         If the file exists and ``force`` is off, cannot be written, or the model is not valid.
     """
+    from spavision.correlate.model_inputs import model_inputs
     from spavision.model.deck import write_deck
-    from spavision.model.geometry import ActuatorGeometry
 
     if path.exists() and not force:
         raise InputError(f"--write-deck {path}: exists already; choose another name or add --force")
+    inputs = model_inputs(experiment)
     try:
         write_deck(
             path,
-            ActuatorGeometry(**experiment.actuator.geometry()),
-            crimp_ratio=_crimp_ratio(experiment),
+            inputs.geometry,
+            crimp_ratio=inputs.crimp_ratio,
             pressures_kPa=pressure_kPa,
-            settings=_settings(experiment),
+            settings=inputs.settings,
         )
     except OSError as error:
         raise InputError(
             f"--write-deck {path}: cannot be written ({error.strerror}); choose another name"
         ) from error
-
-
-def _crimp_ratio(experiment: Experiment) -> float:
-    ratio = experiment.actuator.crimp_ratio
-    if ratio is None:
-        raise InputError("the crimp ratio is not known; give --crimp 0.2, or crimp_ratio under [actuator]")
-    return ratio
-
-
-def _settings(experiment: Experiment) -> SimulationSettings:
-    from spavision.model.simulate import SimulationSettings
-
-    actuator = experiment.actuator
-    return SimulationSettings(
-        mesh_level=experiment.model.mesh,
-        body_material=actuator.body_material,
-        strip_a_material=actuator.body_material,
-        strip_b_material=actuator.strip_b_material,
-    )
 
 
 def write_simulation(results: ResultsFolder, simulation: Simulation) -> None:

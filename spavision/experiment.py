@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import difflib
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import Field, model_validator
 
-from spavision.errors import InputError
+from spavision.checked_settings import Section, checked
 from spavision.tables import read_toml
 
 FILE_NAME = "experiment.toml"
@@ -20,13 +19,7 @@ Stiffness = Annotated[float, Field(ge=0.1, le=10, allow_inf_nan=False)]
 CrimpRatio = Annotated[float, Field(ge=0.1, le=0.4, allow_inf_nan=False)]
 
 
-class _Section(BaseModel):
-    """A section of the file: unknown keys are refused, values are fixed once read."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=False)
-
-
-class BoardSection(_Section):
+class BoardSection(Section):
     """The checkerboard behind the actuator."""
 
     square_mm: float = Field(2.5, ge=0.2, le=100, description="side of one square, mm")
@@ -38,7 +31,7 @@ class BoardSection(_Section):
     )
 
 
-class CameraSection(_Section):
+class CameraSection(Section):
     """Where the camera and the marker stand with respect to the board."""
 
     standoff_mm: float | None = Field(
@@ -52,7 +45,7 @@ class CameraSection(_Section):
     sigma_distance_mm: Sigma = Field(5.0, description="standard uncertainty of distance_mm, mm")
 
 
-class MarkerSection(_Section):
+class MarkerSection(Section):
     """The coloured dot near the tip, and a second one at the fixed end where there is one."""
 
     colour: str = Field("red", description="named colour, or #rrggbb sampled from a photo")
@@ -68,7 +61,7 @@ class MarkerSection(_Section):
     )
 
 
-class PhotosSection(_Section):
+class PhotosSection(Section):
     """How the pressure of each photo is known."""
 
     pressures: Literal["names", "table", "list", "step"] = Field(
@@ -96,7 +89,7 @@ class PhotosSection(_Section):
         return self
 
 
-class ActuatorSection(_Section):
+class ActuatorSection(Section):
     """The actuator: defaults are the article's, or assumed where it is silent."""
 
     crimp_ratio: CrimpRatio | None = Field(None, description="amplitude over wavelength of the crimped paper")
@@ -156,7 +149,7 @@ _NOT_GEOMETRY = (
 )
 
 
-class CompositeSection(_Section):
+class CompositeSection(Section):
     """The crimped-paper composite of region A: soft matrix, and paper that is slack at first."""
 
     matrix_material: str = Field("Ecoflex 00-30", description="silicone around the paper")
@@ -175,13 +168,13 @@ class CompositeSection(_Section):
     )
 
 
-class ModelSection(_Section):
+class ModelSection(Section):
     """Settings of the finite-element model."""
 
     mesh: Literal["draft", "default", "fine"] = Field("default", description="mesh level")
 
 
-class Experiment(_Section):
+class Experiment(Section):
     """Everything an experiment file may say; each section may be left out."""
 
     board: BoardSection = BoardSection()
@@ -208,7 +201,7 @@ class Experiment(_Section):
         merged = self.model_dump()
         for section, given in options.items():
             merged[section] |= {key: value for key, value in given.items() if value is not None}
-        return _validated(merged, source="command line")
+        return checked(Experiment, merged, source="command line")
 
 
 def read_experiment(path: Path) -> Experiment:
@@ -219,46 +212,4 @@ def read_experiment(path: Path) -> Experiment:
     InputError
         If the file cannot be read, is not TOML, or holds an unknown key or a value out of range.
     """
-    return _validated(read_toml(path), source=str(path))
-
-
-def _validated(content: dict[str, Any], *, source: str) -> Experiment:
-    try:
-        return Experiment.model_validate(content)
-    except ValidationError as error:
-        raise InputError(f"{source}: {_sentence(error)}") from error
-
-
-def _sentence(error: ValidationError) -> str:
-    """Say the first thing that is wrong with the file, as one sentence with a mend."""
-    first = error.errors()[0]
-    *sections, key = [str(part) for part in first["loc"]] or ["experiment"]
-    where = f"[{'.'.join(sections)}] {key}" if sections else f"[{key}]"
-    if first["type"] == "extra_forbidden":
-        return f"unknown key {where}; {_nearest(sections, key)}"
-    message = first["msg"].removeprefix("Value error, ")
-    message = message[:1].lower() + message[1:]
-    description = _description(sections, key)
-    value = "" if isinstance(first["input"], dict) else f" is {first['input']!r}:"
-    return f"{where}{value} {message}{f' ({description})' if description else ''}; correct the value"
-
-
-def _section_fields(sections: list[str]) -> dict[str, Any]:
-    model: type[BaseModel] = Experiment
-    for name in sections:
-        annotation = model.model_fields[name].annotation if name in model.model_fields else None
-        if not (isinstance(annotation, type) and issubclass(annotation, BaseModel)):
-            return {}
-        model = annotation
-    return dict(model.model_fields)
-
-
-def _description(sections: list[str], key: str) -> str:
-    field = _section_fields(sections).get(key)
-    return (field.description or "") if field is not None else ""
-
-
-def _nearest(sections: list[str], key: str) -> str:
-    names = list(_section_fields(sections))
-    close = difflib.get_close_matches(key, names, n=1, cutoff=0.5)
-    return f"did you mean {close[0]}?" if close else f"expected one of {', '.join(names)}"
+    return checked(Experiment, read_toml(path), source=str(path))

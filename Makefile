@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 
-.PHONY: demo test lint types format bench bench-fe wheel-check clean clean-kernels
+.PHONY: demo test lint types format bench bench-fe wheel-check report-check clean clean-kernels
 
 demo: $(READY)
 	$(BIN)/spavision correlate --crimp 0.2 --output results/demo --force
@@ -29,6 +29,10 @@ format: $(READY)
 
 wheel-check: $(READY)
 	$(BIN)/python .ci/check_wheel.py
+
+report-check: $(READY)
+	$(BIN)/python -m pip install --disable-pip-version-check --quiet --constraint constraints.txt --editable ".[fast,test,browser]"
+	$(BIN)/python -m pytest tests/correlate/test_report_in_browser.py
 
 bench: $(READY)
 	$(BIN)/python benchmarks/run_all.py

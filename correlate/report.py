@@ -15,6 +15,20 @@ from markupsafe import Markup
 from .interactive import path_plot, plotly_script, pressure_plot
 from .summary import Summary
 
+COMPARISON_HEADER = [
+    "pressure kPa",
+    "measured x mm",
+    "measured y mm",
+    "σ x mm",
+    "σ y mm",
+    "modelled x mm",
+    "modelled y mm",
+    "error x mm",
+    "error y mm",
+    "distance mm",
+    "remark",
+]
+
 
 @dataclass(frozen=True)
 class Picture:
@@ -95,7 +109,7 @@ def report_html(content: ReportContent) -> str:
     discrepancy = content.summary.discrepancy
     return environment.get_template("report.html").render(
         content=content,
-        rows=_rows(content.summary),
+        tables={"Comparison at each pressure": comparison_rows(content.summary), **content.tables},
         path_plot=Markup(path_plot(discrepancy)),
         pressure_plot=Markup(pressure_plot(discrepancy)),
         plotly_script=Markup(plotly_script()),
@@ -103,14 +117,15 @@ def report_html(content: ReportContent) -> str:
     )
 
 
-def _rows(summary: Summary) -> list[list[str]]:
-    """Return the comparison's rows as text; a gap is a dash."""
+def comparison_rows(summary: Summary) -> list[list[str]]:
+    """Return the comparison as rows of text, the header first; a gap is a dash."""
     frame = summary.discrepancy.table()
     numeric = [name for name in frame.columns if name != "remark"]
-    return [
+    rows = [
         [*(_number(row[name], 0 if name == "pressure_kPa" else 2) for name in numeric), row["remark"]]
         for _, row in frame.iterrows()
     ]
+    return [COMPARISON_HEADER, *rows]
 
 
 def _number(value: float, decimals: int) -> str:

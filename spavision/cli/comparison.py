@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -96,10 +97,19 @@ def compare_with_model(side: MeasuredSide, *, quiet: bool) -> Comparison:
     )
 
 
-def write_comparison(results: ResultsFolder, comparison: Comparison) -> None:
-    """Write the tables, figures, fields, the report and, last, the record."""
+def write_comparison(
+    results: ResultsFolder, comparison: Comparison, *, formats: Sequence[str] = ("html",)
+) -> list[str]:
+    """Write the tables, figures, fields, the report in each format and, last, the record.
+
+    Returns
+    -------
+    list of str
+        File names of the reports.
+    """
     from spavision.correlate.figures import path_figure, pressure_figure
     from spavision.correlate.report import report_html
+    from spavision.correlate.report_text import report_json, report_markdown
 
     discrepancy = comparison.summary.discrepancy
     measurement = comparison.side.measurement
@@ -118,5 +128,9 @@ def write_comparison(results: ResultsFolder, comparison: Comparison) -> None:
     for name, figure in figures.items():
         for ending in ("png", "svg"):
             results.write_bytes(f"figures/{name}.{ending}", figure_bytes(figure, ending))
-    results.write_text("report.html", report_html(report_content(comparison, photos, montage)))
+    writers = {"html": report_html, "md": report_markdown, "json": report_json}
+    content = report_content(comparison, photos, montage)
+    for ending in formats:
+        results.write_text(f"report.{ending}", writers[ending](content))
     results.write_record(comparison.record())
+    return [f"report.{ending}" for ending in formats]

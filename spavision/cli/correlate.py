@@ -19,11 +19,22 @@ if TYPE_CHECKING:
 @click.option(
     "--pressure-unit", default="kPa", show_default=True, help="Unit of the pressures in --measured."
 )
+@click.option(
+    "--format",
+    "formats",
+    type=click.Choice(["html", "md", "json"]),
+    multiple=True,
+    default=["html"],
+    show_default=True,
+    help="Format of the report; may be given several times.",
+)
 @photo_options
 @model_options
 @experiment_option
 @results_options
-def correlate(photos: Path | None, measured: Path | None, pressure_unit: str, **given: Any) -> None:
+def correlate(
+    photos: Path | None, measured: Path | None, pressure_unit: str, formats: tuple[str, ...], **given: Any
+) -> None:
     """Compare the measured with the modelled tip path.
 
     With --crimp alone the sample photos of that crimp ratio are used. Writes track.csv, simulation.csv,
@@ -40,11 +51,12 @@ def correlate(photos: Path | None, measured: Path | None, pressure_unit: str, **
     results = ResultsFolder(folder, force=given["force"])
     side = take_measurement(source, results=results, quiet=given["quiet"])
     comparison = compare_with_model(side, quiet=given["quiet"])
-    write_comparison(results, comparison)
-    _report(comparison, results.path, as_json=given["as_json"], quiet=given["quiet"])
+    reports = write_comparison(results, comparison, formats=tuple(dict.fromkeys(formats)))
+    places = [results.path / name for name in reports]
+    _report(comparison, places, as_json=given["as_json"], quiet=given["quiet"])
 
 
-def _report(comparison: Comparison, folder: Path, *, as_json: bool, quiet: bool) -> None:
+def _report(comparison: Comparison, reports: list[Path], *, as_json: bool, quiet: bool) -> None:
     from . import output
 
     frame = comparison.summary.discrepancy.table()
@@ -53,7 +65,7 @@ def _report(comparison: Comparison, folder: Path, *, as_json: bool, quiet: bool)
             {
                 "discrepancy": output.records(frame),
                 "summary": comparison.sentences(),
-                "output": str(folder),
+                "output": str(reports[0].parent),
             }
         )
         return
@@ -81,4 +93,4 @@ def _report(comparison: Comparison, folder: Path, *, as_json: bool, quiet: bool)
         title = f"{comparison.title}: tip in mm, Δ = modelled − measured"
         output.print_table(title, [*header.values(), "remark"], rows)
         output.print_lines(comparison.sentences())
-    output.print_lines([f"Report: {folder / 'report.html'}"])
+    output.print_lines([f"Report: {report}" for report in reports])

@@ -61,6 +61,7 @@ def test_a_measured_table_in_bar_is_compared_as_it_is(spavision, tmp_path):
         "0.3",
         "--mesh",
         "draft",
+        *("--format", "md", "--format", "json"),
         "--json",
     )
     assert outcome.code == 0, outcome.err
@@ -69,6 +70,10 @@ def test_a_measured_table_in_bar_is_compared_as_it_is(spavision, tmp_path):
     assert rows[1]["error_ux_mm"] == pytest.approx(rows[1]["modelled_ux_mm"] - 2.0)
     assert rows[2]["measured_ux_mm"] is None
     assert rows[2]["modelled_ux_mm"] is not None
+    folder = tmp_path / "results" / "correlate-measured"
+    assert json.loads((folder / "report.json").read_text())["discrepancy"][1] == rows[1]
+    assert "![" in (folder / "report.md").read_text()
+    assert not (folder / "report.html").exists()
 
 
 def test_a_first_bend_to_the_left_is_turned_into_the_model_s_axes(spavision, tmp_path):

@@ -20,7 +20,7 @@ def _arc(angle_deg, *, points=51, pressure_kPa=10.0, start=(0.0, -150.0)):
 @pytest.mark.parametrize("angle_deg", [-140.0, -30.0, 5.0, 60.0, 95.0])
 @pytest.mark.parametrize("points", [51, 61, 200])
 def test_the_bend_angle_of_an_arc_is_its_turn(angle_deg, points):
-    assert _arc(angle_deg, points=points).bend_angle_deg == pytest.approx(angle_deg, abs=0.25)
+    assert _arc(angle_deg, points=points).bend_angle_deg == pytest.approx(angle_deg, abs=0.3)
     assert _arc(angle_deg, points=points).length_mm == pytest.approx(LENGTH_MM, rel=2e-3)
 
 

@@ -14,15 +14,19 @@ from .observe import BoardMap, Observation
 
 WIDEST_SHIFT_SQUARES = 20
 SMALLEST_CERTAINTY = 3.0
-"""Standard errors by which the best shift must lead for its index to be trusted."""
+"""Lead of the best shift, over the disagreement that it leaves, from which its index is trusted."""
 
 LEAST_CERTAINTY = 1.5
-"""Below this the shift is a guess. On renders guesses stay below 0.6, and right shifts above 2."""
+"""Below this the shift is a guess. On renders wrong shifts stay below 1.4; with the clamp in view, right ones
+reach 4 to 7."""
 
 BLOCK_SQUARES = 6
 
 LARGEST_DIFFERENCE = 0.15
 """Difference of brightness, relative to the board's, at which two places simply count as different."""
+
+MOVED_SHARE = 0.3
+"""Share of that difference above which, under either shift, something else has come or gone."""
 
 STILL_PX = 0.04
 """Lattice motion up to which the camera counts as unmoved."""
@@ -37,7 +41,8 @@ class Registration:
     shift : int array, shape (2,)
         Add to the photograph's indices.
     certainty : float
-        Lead of this shift over the next best ones, in standard errors; infinite for an unmoved camera.
+        Least lead of this shift over the next best ones (see `SMALLEST_CERTAINTY`); infinite for an unmoved
+        camera.
     """
 
     shift: IntArray
@@ -104,37 +109,46 @@ def disagreements(reference: BoardMap, other: BoardMap, *, about: IntArray) -> d
     for shift in (
         (column + dx, row + dy) for dy in reach for dx in reach if (column + row + dx + dy) % 2 == 0
     ):
-        difference = _difference(reference, other, shift)
+        _, difference = _difference(reference, other, shift)
         defined = np.isfinite(difference)
         if defined.sum() > 60:
             costs[shift] = float(difference[defined].mean())
     return costs
 
 
-def _difference(reference: BoardMap, other: BoardMap, shift: tuple[int, int]) -> FloatImage:
-    """Capped difference of the two maps over the reference map's nodes; NaN where they do not overlap."""
+def _difference(
+    reference: BoardMap, other: BoardMap, shift: tuple[int, int]
+) -> tuple[tuple[slice, slice], FloatImage]:
+    """Return where in the reference map the other one lies, and their capped difference there."""
     rows, columns = reference.values.shape
     left, top = np.array(other.origin) - np.array(reference.origin) + shift
     x0, y0 = max(0, left), max(0, top)
-    x1, y1 = min(columns, left + other.values.shape[1]), min(rows, top + other.values.shape[0])
-    result = np.full_like(reference.values, np.nan)
-    if x1 > x0 and y1 > y0:
-        difference = reference.values[y0:y1, x0:x1] - other.values[y0 - top : y1 - top, x0 - left : x1 - left]
-        # The actuator moves: where it was and where it is count for no more than the cap.
-        result[y0:y1, x0:x1] = np.minimum(np.abs(difference), LARGEST_DIFFERENCE)
-    return result
+    x1, y1 = max(x0, min(columns, left + other.values.shape[1])), max(y0, min(rows, top + len(other.values)))
+    difference = reference.values[y0:y1, x0:x1] - other.values[y0 - top : y1 - top, x0 - left : x1 - left]
+    # The actuator moves: where it was and where it is count for no more than the cap.
+    return (slice(y0, y1), slice(x0, x1)), np.minimum(np.abs(difference), LARGEST_DIFFERENCE)
 
 
 def _certainty(reference: BoardMap, other: BoardMap, best: tuple[int, int], rival: tuple[int, int]) -> float:
-    """Lead of one shift over another in standard errors, taken over blocks of the board.
+    """Lead of one shift over another, over the disagreement that it leaves itself.
 
-    Neighbouring nodes share shadows and occluders, blocks hardly do.
+    Both are summed over blocks of the board: neighbouring nodes share shadows and occluders, blocks hardly
+    do. Nodes where both shifts disagree show something that moved, and speak for neither.
     """
-    lead = _difference(reference, other, rival) - _difference(reference, other, best)
-    rows, columns = (size // BLOCK_SQUARES for size in lead.shape)
-    blocks = lead[: rows * BLOCK_SQUARES, : columns * BLOCK_SQUARES]
-    sums = np.nansum(blocks.reshape(rows, BLOCK_SQUARES, columns, BLOCK_SQUARES), axis=(1, 3))
-    return float(sums.sum() / max(np.sqrt((sums**2).sum()), 1e-9))
+    own, others = np.full_like(reference.values, np.nan), np.full_like(reference.values, np.nan)
+    for field, shift in ((own, best), (others, rival)):
+        place, difference = _difference(reference, other, shift)
+        field[place] = difference
+    with np.errstate(invalid="ignore"):
+        moved = ~(np.minimum(own, others) < MOVED_SHARE * LARGEST_DIFFERENCE)
+    lead, rest = (_block_sums(np.where(moved, 0.0, field)) for field in (others - own, own))
+    return float(lead.sum() / max(np.sqrt((rest**2).sum()), 1e-9))
+
+
+def _block_sums(values: FloatImage) -> FloatImage:
+    rows, columns = (size // BLOCK_SQUARES for size in values.shape)
+    whole = values[: rows * BLOCK_SQUARES, : columns * BLOCK_SQUARES]
+    return np.asarray(whole.reshape(rows, BLOCK_SQUARES, columns, BLOCK_SQUARES).sum(axis=(1, 3)))
 
 
 def levelled(board_map: BoardMap) -> BoardMap:

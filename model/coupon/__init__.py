@@ -1,0 +1,1 @@
+"""Virtual tensile test of the crimped-paper composite: matrix and paper as two constituents."""

@@ -19,6 +19,7 @@ COMMANDS = {
     "simulate": "Run the 3D finite-element model: pressures -> tip path, fields.",
     "correlate": "Compare the measured with the modelled tip path at the same pressures.",
     "fit": "Fit hyperelastic laws to test data, with uncertainty and stability.",
+    "coupon": "Pull a virtual coupon of matrix and crimped paper, of any crimp ratio.",
     "materials": "List the materials of the library and of a folder of yours.",
     "render": "Render synthetic photographs with known truth.",
 }

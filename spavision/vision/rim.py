@@ -17,6 +17,9 @@ SAMPLES_PER_RADIUS = 24
 OUTER_RADII = 1.9
 """Length of a ray, in radii."""
 
+SIDES = ((0.3, 0.65), (1.35, 1.75))
+"""Where along a ray the levels inside and outside are taken, in radii."""
+
 
 @dataclass(frozen=True)
 class Rim:
@@ -27,7 +30,7 @@ class Rim:
     pixels : array, shape (n, 2)
         One point a ray, in order of angle; NaN where a ray shows no edge.
     contrast : float
-        Step between inside and outside over the noise of the outside.
+        Step between inside and outside over the scatter of colours there, where an edge is seen.
     """
 
     pixels: FloatArray
@@ -101,13 +104,22 @@ def _edges(
         return None
     values = (profiles - inside) @ (direction / length)  # 0 inside, −1 at the typical outside
     crossing = _half_contrast(values, distances)
+    found = np.isfinite(crossing)
+    if not found.any():
+        return None
     centre = to_plane(board.camera, board.pose, centre_px[None])[0]
     ring = np.column_stack([np.cos(angles), np.sin(angles)])
     points = centre + (radius * crossing)[:, None] * ring
     pixels = np.full((N_RAYS, 2), np.nan)
-    found = np.isfinite(crossing)
     pixels[found] = project(board.camera, board.pose, points[found])
-    return Rim(pixels, float(np.sqrt(length)))
+    return Rim(pixels, _contrast(profiles[found], distances))
+
+
+def _contrast(profiles: FloatArray, distances: FloatArray) -> float:
+    """Step across the rim over the scatter of colours on either side, along rays that show an edge."""
+    inner, outer = (profiles[:, (distances > low) & (distances < high)].reshape(-1, 3) for low, high in SIDES)
+    step = np.median(inner, axis=0) - np.median(outer, axis=0)
+    return float(np.sqrt(step @ np.linalg.solve(_scatter(inner, outer, profiles), step)))
 
 
 def _scatter(inner: FloatArray, outer: FloatArray, _profiles: FloatArray) -> FloatArray:
@@ -143,15 +155,13 @@ def _profiles(
 def _half_contrast(values: FloatArray, distances: FloatArray) -> FloatArray:
     """Distance of the half-contrast crossing along each ray, NaN where there is none.
 
-    Values are 0 in the spot's colour and −1 in the typical colour outside. Each ray's own levels inside (0.3
-    to 0.65 radii) and outside (from 1.35 radii), taken with its neighbours', set its half contrast. Just
-    within the crossing the spot's colour must show: a highlight farther in does no harm, the edge of a cover
-    does not count.
+    Values are 0 in the spot's colour and −1 in the typical colour outside. Each ray's own levels inside
+    and outside (`SIDES`), taken with its neighbours', set its half contrast. Just within the crossing the
+    spot's colour must show: a highlight farther in does no harm, the edge of a cover does not count.
     """
     padded = np.pad(values, ((0, 0), (1, 1)), "edge")
     smooth = 0.25 * padded[:, :-2] + 0.5 * padded[:, 1:-1] + 0.25 * padded[:, 2:]
-    near = (distances > 0.3) & (distances < 0.65)
-    far = (distances > 1.35) & (distances < 1.75)
+    near, far = ((distances > low) & (distances < high) for low, high in SIDES)
     inside = np.clip(_circular_median(np.median(smooth[:, near], axis=1), 9), -0.2, 0.2)
     outside = _circular_median(np.median(smooth[:, far], axis=1), 9)
     half = 0.5 * (inside + outside)

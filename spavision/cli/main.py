@@ -18,6 +18,7 @@ COMMANDS = {
     "calibrate": "Calibrate a camera: photos of a whole board -> camera.toml, coverage map.",
     "simulate": "Run the 3D finite-element model: pressures -> tip path, fields.",
     "correlate": "Compare the measured with the modelled tip path at the same pressures.",
+    "study": "Sweeps, tolerances, attribution, model updating, design: many model runs.",
     "fit": "Fit hyperelastic laws to test data, with uncertainty and stability.",
     "coupon": "Pull a virtual coupon of matrix and crimped paper, of any crimp ratio.",
     "materials": "List the materials of the library and of a folder of yours.",
@@ -47,12 +48,12 @@ class _LazyGroup(click.Group):
 @click.version_option(__version__, prog_name="spavision")
 @click.option("--debug", is_flag=True, help="Show the traceback of an internal error.")
 def main(debug: bool) -> None:
-    r"""Track a soft pneumatic actuator in photographs, simulate it, and compare the two.
+    """Track a soft pneumatic actuator in photographs, simulate it, and compare the two.
 
     \b
     spavision track photos/            photos -> tip displacement with uncertainty
     spavision correlate --crimp 0.2    measured against model at the same pressures
-    """
+    """  # noqa: D301
 
 
 def run() -> NoReturn:

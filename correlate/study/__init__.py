@@ -1,0 +1,1 @@
+"""Studies: many model runs under uncertain inputs, and what they say about the discrepancy."""

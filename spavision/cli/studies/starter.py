@@ -1,0 +1,102 @@
+"""``spavision study starter``: a study file to start from."""
+
+from __future__ import annotations
+
+import click
+
+STARTER = """\
+# A study of the article's suspects. Run it with
+#   spavision study tolerance study.toml
+# Any number under [actuator], [composite] of the experiment file, and standoff_mm, distance_mm, scale can be
+# a suspect. Its nominal value is the experiment file's, or the default.
+
+[study]
+# experiment = "experiment.toml"
+crimp_ratio = 0.2
+model = "reduced"              # about 1 s a case; "full" takes about 20
+cases = 128                    # a power of two suits the Sobol sequence
+pressures_kPa = [0, 5, 10, 15, 20, 25, 30, 35, 40, 45, 50]
+
+# Printed moulds: +-0.2 to +-0.5 mm, of which +-0.1 mm matters already (article).
+[suspects.wall_between_voids_mm]
+distribution = "uniform"
+plus_minus = 0.2
+[suspects.side_wall_mm]
+distribution = "uniform"
+plus_minus = 0.2
+[suspects.roof_mm]
+distribution = "uniform"
+plus_minus = 0.2
+[suspects.strip_a_mm]
+distribution = "uniform"
+plus_minus = 0.1
+[suspects.strip_b_mm]
+distribution = "uniform"
+plus_minus = 0.2
+[suspects.composite_mm]
+distribution = "uniform"
+plus_minus = 0.2
+
+# Silicones: scatter from batch to batch (assumed), and sources that disagree.
+[suspects.body_stiffness]
+distribution = "normal"
+sigma = 0.1
+[suspects.matrix_material]
+distribution = "choice"        # the library's alternatives; or options = ["...", "..."]
+[suspects.bulk_to_shear]
+distribution = "uniform"
+low = 200
+high = 2000
+
+# Composite: all assumed but the transition at crimp ratio 0.3.
+[suspects.paper_transition_factor]
+distribution = "triangular"
+plus_minus = 0.1
+[suspects.paper_transition_half_width]
+distribution = "uniform"
+low = 0.05
+high = 0.15
+[suspects.paper_length_modulus_MPa]
+distribution = "uniform"
+low = 5
+high = 40
+[suspects.paper_width_modulus_MPa]
+distribution = "uniform"
+low = 0
+high = 20
+
+# Set-up.
+[suspects.gravity_tilt_deg]
+distribution = "normal"
+sigma = 2
+[suspects.standoff_mm]         # moves the measured path, not the model
+distribution = "normal"
+mean = 20
+sigma = 1
+
+# For attribute and update: the path to explain; further ones check what update fits to the first.
+# [[measured]]
+# path = "track.csv"
+# crimp_ratio = 0.2
+
+# For update: the parameters to fit, of those above.
+# [update]
+# parameters = ["body_stiffness", "paper_transition_factor"]
+
+# For design: a wish, and what there is to choose from.
+# [design]
+# mode_change_kPa = 45
+# crimp_ratios = [0.15, 0.2, 0.25, 0.3, 0.35]
+# strips_mm = [1, 2, 3]
+
+# For sweep: every combination of these values.
+# [grid]
+# crimp_ratio = [0.2, 0.25, 0.3]
+# strip_b_mm = [1, 2, 3]
+"""
+
+
+@click.command()
+def starter() -> None:
+    """Print a study file to start from: every suspect that the article names."""
+    click.echo(STARTER, nl=False)

@@ -1,0 +1,74 @@
+"""``spavision study tolerance``: the band that uncertain inputs leave around the modelled path."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .setup import Setup, prepare, study_options
+
+if TYPE_CHECKING:
+    from spavision.correlate.study.band import Band
+
+BAND_NAME = "tolerance.csv"
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@study_options
+def tolerance(file: Path, **given: Any) -> None:
+    """Draw values for all suspects of FILE at once, many times, and run the model with each.
+
+    Writes tolerance.csv (band and u_input at each pressure), cases.csv, a figure. correlate --study takes
+    u_input from the folder.
+    """
+    from spavision.cli import output
+    from spavision.correlate.study.band import band
+    from spavision.correlate.study.sampling import draw_shares, values_at
+
+    setup = prepare("tolerance", file, given)
+    suspects = tuple(one for one in setup.suspects() if not one.moves_the_measurement)
+    study = setup.study.study
+    points = draw_shares(len(suspects), study.cases, sampling=study.sampling, seed=study.seed)
+    cases = [setup.case({}), *(setup.case(values) for values in values_at(suspects, points))]
+    nominal, *results = setup.run(cases, title="tolerance")
+    setup.write_cases(cases[1:], results)
+    found = band(nominal.path(setup.pressures_kPa), results)
+    _write(setup, found)
+    if given["as_json"]:
+        output.print_json({"band": output.records(found.table()), "output": str(setup.results.path)})
+        return
+    if not given["quiet"]:
+        _print(found)
+    output.print_lines([f"Results: {setup.results.path}"])
+
+
+def _write(setup: Setup, found: Band) -> None:
+    from spavision.cli import output
+    from spavision.cli.pictures import figure_bytes
+    from spavision.correlate.study.figures import band_figure
+
+    setup.results.write_text(BAND_NAME, output.csv_text(found.table()))
+    figure = band_figure(found, title=f"{found.n_cases} cases, {setup.study.study.model} model")
+    for ending in ("png", "svg"):
+        setup.results.write_bytes(f"figures/tolerance.{ending}", figure_bytes(figure, ending))
+    setup.results.write_record(setup.record())
+
+
+def _print(found: Band) -> None:
+    from spavision.cli import output
+
+    header = ["kPa", "x nominal", "x low", "x high", "u_input x", "y nominal", "y low", "y high", "u_input y"]
+    rows = []
+    for index, pressure in enumerate(found.nominal.pressure_kPa):
+        row = [f"{pressure:g}"]
+        for axis, nominal in enumerate((found.nominal.ux_mm, found.nominal.uy_mm)):
+            low, _, high = found.quantiles_mm[:, axis, index]
+            row += [
+                output.number(value) for value in (nominal[index], low, high, found.sigma_mm[axis, index])
+            ]
+        left = found.n_cases - int(found.n_reached[index])
+        rows.append([*row, f"{left} of {found.n_cases} cases did not get here" if left else ""])
+    output.print_table("Tip in mm: 95 % of the cases lie between low and high", [*header, "remark"], rows)

@@ -1,0 +1,138 @@
+"""Studies that are interrupted, killed, repeated and mixed up."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+from spavision.correlate.study.case_files import STUDY_NAME, CaseFolder, finished_cases
+from spavision.correlate.study.case_table import case_table
+from spavision.correlate.study.evaluate import evaluate
+from spavision.correlate.study.execution import ATTEMPTS, Machine
+from spavision.errors import InputError
+
+from .conftest import PRESSURES, silent, wall_cases
+
+HERE, TWO_WORKERS = Machine(), Machine(workers=2)
+
+
+def evaluated(folder: Path) -> list[str]:
+    return (folder / "evaluated").read_text().split()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="kills a process by signal")
+def test_study_of_200_loses_nothing_when_a_worker_is_killed_half_way(
+    stand_in: ModuleType, tmp_path: Path
+) -> None:
+    walls = [*np.linspace(2.0, 2.9, 100), 3.0, *np.linspace(3.1, 4.0, 99)]
+    cases = wall_cases([float(wall) for wall in walls])
+    results = finished_cases(
+        CaseFolder(tmp_path / "study"),
+        cases,
+        machine=TWO_WORKERS,
+        advance=silent,
+        evaluate=stand_in.killed_once,
+    )
+    assert (tmp_path / "killed").exists()
+    assert [result.ux_mm for result in results] == [tuple(wall * p for p in PRESSURES) for wall in walls]
+    assert len(list((tmp_path / "study" / "cases").iterdir())) == 200
+    assert sorted(evaluated(tmp_path)) == sorted(f"{wall:.6f}" for wall in walls)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="kills a process by signal")
+def test_case_that_kills_every_worker_is_given_up_and_tried_again_later(
+    stand_in: ModuleType, tmp_path: Path
+) -> None:
+    folder, cases = CaseFolder(tmp_path / "study"), wall_cases([2.0, 3.0, 4.0])
+    given_up = finished_cases(
+        folder, cases, machine=TWO_WORKERS, advance=silent, evaluate=stand_in.killed_always
+    )
+    assert [result.status for result in given_up] == ["ok", "failed", "ok"]
+    assert f"died {ATTEMPTS} times" in given_up[1].reason
+    again = finished_cases(folder, cases, machine=HERE, advance=silent, evaluate=stand_in.linear)
+    assert [result.status for result in again] == ["ok", "ok", "ok"]
+    assert evaluated(tmp_path)[2:] == ["3.000000"]
+
+
+def test_interrupted_study_goes_on_where_it_stopped(stand_in: ModuleType, tmp_path: Path) -> None:
+    folder, cases = CaseFolder(tmp_path / "study"), wall_cases([2.0, 2.5, 3.0, 3.5])
+
+    def interrupted(case: object) -> object:
+        if case is cases[2]:
+            raise KeyboardInterrupt
+        return stand_in.linear(case)
+
+    with pytest.raises(KeyboardInterrupt):
+        finished_cases(folder, cases, machine=HERE, advance=silent, evaluate=interrupted)
+    results = finished_cases(
+        CaseFolder(tmp_path / "study"), cases, machine=HERE, advance=silent, evaluate=stand_in.linear
+    )
+    assert [result.ux_mm[-1] for result in results] == [40.0, 50.0, 60.0, 70.0]
+    assert evaluated(tmp_path) == ["2.000000", "2.500000", "3.000000", "3.500000"]
+
+
+def test_failed_case_keeps_its_row_and_reason(stand_in: ModuleType, tmp_path: Path) -> None:
+    folder, cases = CaseFolder(tmp_path / "study"), wall_cases([2.0, 4.95])
+    results = finished_cases(folder, cases, machine=HERE, advance=silent, evaluate=stand_in.linear)
+    table = case_table(cases, results)
+    assert list(table["status"]) == ["ok", "failed"]
+    assert list(table["reason"]) == ["", "wall too thick"]
+    assert table["side_wall_mm"].tolist() == [2.0, 4.95]
+    finished_cases(folder, cases, machine=HERE, advance=silent, evaluate=stand_in.linear)
+    assert evaluated(tmp_path) == ["2.000000", "4.950000"]
+    finished_cases(folder, cases, machine=HERE, advance=silent, evaluate=stand_in.linear, retry_failed=True)
+    assert evaluated(tmp_path)[2:] == ["4.950000"]
+
+
+def test_half_written_case_is_computed_again(stand_in: ModuleType, tmp_path: Path) -> None:
+    folder, cases = CaseFolder(tmp_path / "study"), wall_cases([2.0])
+    for _ in range(2):
+        (result,) = finished_cases(folder, cases, machine=HERE, advance=silent, evaluate=stand_in.linear)
+        assert result.status == "ok"
+        file = next((tmp_path / "study" / "cases").iterdir())
+        file.write_text(file.read_text()[:40])
+    assert len(evaluated(tmp_path)) == 2
+
+
+def test_geometry_that_collides_is_a_failed_case_with_the_sentence() -> None:
+    (case,) = wall_cases([8.0])
+    result = evaluate(case)
+    assert result.status == "failed"
+    assert "2 × side_wall_mm is 16 mm and width_mm is 15 mm" in result.reason
+
+
+def test_name_of_a_case_follows_its_inputs_alone() -> None:
+    thin, thick = wall_cases([2.0, 2.1])
+    assert thin.name == wall_cases([2.0])[0].name != thick.name
+
+
+def test_folder_of_another_version_is_refused_in_one_sentence(tmp_path: Path) -> None:
+    record = {"version": {"spavision": "0.0.7", "model": "abc"}}
+    (tmp_path / STUDY_NAME).write_text(json.dumps(record))
+    with pytest.raises(InputError, match=r"holds results of spavision 0\.0\.7 .*choose another folder"):
+        CaseFolder(tmp_path)
+
+
+def test_folder_of_something_else_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "holiday.jpg").touch()
+    with pytest.raises(InputError, match="no study's"):
+        CaseFolder(tmp_path)
+
+
+def test_scheduler_that_does_not_answer_is_told(stand_in: ModuleType, monkeypatch, tmp_path: Path) -> None:
+    pytest.importorskip("distributed")
+    monkeypatch.setattr("spavision.correlate.study.dask_workers.TIMEOUT_SECONDS", 1)
+    silent_address = Machine(scheduler="tcp://127.0.0.1:9")
+    with pytest.raises(InputError, match="no scheduler answered within 1 s"):
+        finished_cases(
+            CaseFolder(tmp_path / "study"),
+            wall_cases([2.0]),
+            machine=silent_address,
+            advance=silent,
+            evaluate=stand_in.linear,
+        )

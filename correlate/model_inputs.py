@@ -10,6 +10,8 @@ from spavision.model.composite import PaperLayer
 from spavision.model.geometry import ActuatorGeometry
 from spavision.model.simulation import SimulationSettings
 
+from .composite_inputs import with_composite
+
 
 @dataclass(frozen=True)
 class ModelInputs:
@@ -20,11 +22,14 @@ class ModelInputs:
     geometry : ActuatorGeometry
     crimp_ratio : float
     settings : SimulationSettings
+    notes : tuple of str
+        What to know about the composite, where it was calibrated.
     """
 
     geometry: ActuatorGeometry
     crimp_ratio: float
     settings: SimulationSettings
+    notes: tuple[str, ...] = ()
 
 
 def model_inputs(experiment: Experiment) -> ModelInputs:
@@ -56,4 +61,5 @@ def model_inputs(experiment: Experiment) -> ModelInputs:
         bulk_to_shear=actuator.bulk_to_shear,
         gravity_tilt_deg=actuator.gravity_tilt_deg,
     )
-    return ModelInputs(ActuatorGeometry(**actuator.geometry()), actuator.crimp_ratio, settings)
+    settings, notes = with_composite(settings, composite, crimp_ratio=actuator.crimp_ratio)
+    return ModelInputs(ActuatorGeometry(**actuator.geometry()), actuator.crimp_ratio, settings, notes)

@@ -33,9 +33,12 @@ def actuator_materials(*, crimp_ratio: float, settings: SimulationSettings) -> d
             ("strip B", settings.strip_b_material, settings.strip_b_stiffness),
         )
     }
-    solids["composite"] = crimped_composite(
-        solids["composite"], crimp_ratio=crimp_ratio, paper=settings.paper
-    )
+    if settings.composite is not None:
+        solids["composite"] = settings.composite.solid(bulk_to_shear=settings.bulk_to_shear)
+    else:
+        solids["composite"] = crimped_composite(
+            solids["composite"], crimp_ratio=crimp_ratio, paper=settings.paper
+        )
     return solids
 
 

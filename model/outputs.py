@@ -10,6 +10,7 @@ from .constitutive import deform
 from .element_geometry import element_geometry
 from .elements import FloatArray
 from .materials.library import find_material
+from .materials.material_files import Material
 from .simulation import Simulation
 
 _SMALLEST_TURN_MM = 0.5
@@ -123,13 +124,14 @@ def mode_change(pressure_kPa: FloatArray, ux_mm: FloatArray) -> tuple[float | No
 
 def _stretch_uses(simulation: Simulation, reached: np.ndarray) -> tuple[StretchUse, ...]:
     mesh, settings = simulation.mesh, simulation.settings
-    names = {
-        "composite": settings.matrix_material,
-        "strip A": settings.strip_a_material,
-        "body": settings.body_material,
-        "strip B": settings.strip_b_material,
+    materials = {
+        "composite": settings.composite or find_material(settings.matrix_material),
+        "strip A": find_material(settings.strip_a_material),
+        "body": find_material(settings.body_material),
+        "strip B": find_material(settings.strip_b_material),
     }
-    material = np.array([names[mesh.region_names[code]] for code in mesh.region])
+    by_name = {each.name: each for each in materials.values()}
+    material = np.array([materials[mesh.region_names[code]].name for code in mesh.region])
     geometry = element_geometry(mesh)
     extremes = np.empty((len(reached), 2, len(mesh.elements)))
     for place, row in enumerate(reached):
@@ -137,14 +139,16 @@ def _stretch_uses(simulation: Simulation, reached: np.ndarray) -> tuple[StretchU
         stretch = np.exp(state.log_stretch)
         extremes[place] = stretch.max(axis=(1, 2)), stretch.min(axis=(1, 2))
     pressures = simulation.tip_path.pressure_kPa[reached]
-    return tuple(_use(name, extremes[:, :, material == name], pressures) for name in dict.fromkeys(material))
+    return tuple(
+        _use(by_name[name], extremes[:, :, material == name], pressures) for name in dict.fromkeys(material)
+    )
 
 
-def _use(name: str, extremes: FloatArray, pressure_kPa: FloatArray) -> StretchUse:
+def _use(material: Material, extremes: FloatArray, pressure_kPa: FloatArray) -> StretchUse:
     largest = extremes[:, 0].max(axis=1)
-    strains = find_material(name).strain_range
+    strains = material.strain_range
     return StretchUse(
-        material=str(name),
+        material=material.name,
         largest_stretch=float(largest.max()),
         smallest_stretch=float(extremes[:, 1].min()),
         pressure_kPa=float(pressure_kPa[largest.argmax()]),

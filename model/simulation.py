@@ -13,6 +13,7 @@ from .continuation import SteppingSettings
 from .elements import FloatArray
 from .geometry import ActuatorGeometry
 from .hex_mesh import HexMesh
+from .materials.material_files import Material
 from .newton import NewtonSettings
 from .observe import locate
 from .volume_control import VolumeStepping
@@ -38,6 +39,8 @@ class SimulationSettings:
     body_stiffness, strip_b_stiffness, matrix_stiffness : float
         Factor on all stresses of the body with strip A, of strip B and of the matrix: scatter of batches.
     paper : PaperLayer
+    composite : Material or None
+        A homogeneous material in place of matrix and paper.
     gravity : bool
         Whether the actuator hangs under its own weight.
     gravity_tilt_deg : float
@@ -61,6 +64,7 @@ class SimulationSettings:
     strip_b_stiffness: float = 1.0
     matrix_stiffness: float = 1.0
     paper: PaperLayer = field(default_factory=PaperLayer)
+    composite: Material | None = None
     gravity: bool = True
     gravity_tilt_deg: float = 0.0
     bulk_to_shear: float = 1000.0

@@ -152,6 +152,22 @@ _NOT_GEOMETRY = (
 class CompositeSection(Section):
     """The crimped-paper composite of region A: soft matrix, and paper that is slack at first."""
 
+    law: Literal["slack-fibre", "ogden", "resolved"] = Field(
+        "slack-fibre",
+        description="slack fibres in the matrix; ogden: one law fitted to a curve; resolved: by a coupon",
+    )
+    curve: str | None = Field(
+        None, description="file with a tension test of the composite, which calibrates slack-fibre or ogden"
+    )
+    coupon_wavelength_mm: PositiveLength = Field(
+        5.0, description="wavelength of the crimp in the virtual coupon, mm (assumed)"
+    )
+    coupon_fold_radius_mm: float = Field(
+        0.25, ge=0, le=50, description="radius of the folds in the virtual coupon, mm (assumed)"
+    )
+    coupon_paper_modulus_MPa: float = Field(
+        4500.0, gt=0, le=20000, description="modulus of the paper in the virtual coupon, MPa (assumed)"
+    )
     matrix_material: str = Field("Ecoflex 00-30", description="silicone around the paper")
     matrix_stiffness: Stiffness = Field(1.0, description="factor on all stresses of that silicone")
     paper_transition_factor: float = Field(
@@ -166,6 +182,14 @@ class CompositeSection(Section):
     paper_width_modulus_MPa: float = Field(
         10.0, ge=0, le=500, description="stiffness across the width, along the folds, MPa (assumed)"
     )
+
+    @model_validator(mode="after")
+    def _resolved_needs_no_curve(self) -> CompositeSection:
+        if self.law == "resolved" and self.curve is not None:
+            raise ValueError(
+                'law = "resolved" computes its curve: leave the key curve out, or choose another law'
+            )
+        return self
 
 
 class ModelSection(Section):

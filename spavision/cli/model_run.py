@@ -11,7 +11,7 @@ from spavision.experiment import Experiment
 from spavision.results import ResultsFolder
 from spavision.tip_path import FloatArray
 
-from .output import csv_text
+from .output import csv_text, warn
 from .progress import progress_bar
 
 if TYPE_CHECKING:
@@ -31,6 +31,8 @@ def run_model(experiment: Experiment, pressure_kPa: FloatArray, *, quiet: bool) 
     from spavision.model.simulate import simulate
 
     inputs = model_inputs(experiment)
+    for note in inputs.notes:
+        warn(note)
     with progress_bar("model", total=float(pressure_kPa.max()), quiet=quiet) as advance:
         return simulate(
             inputs.geometry,

@@ -40,7 +40,12 @@ PHOTO_OPTIONS = {
 PRESSURE_OPTIONS = {"pressures": "table", "pressures_kpa": "list", "pressure_step_kpa": "step"}
 """Option name to the way of knowing the pressures that it stands for."""
 
-MODEL_OPTIONS = {"crimp": ("actuator", "crimp_ratio"), "mesh": ("model", "mesh")}
+MODEL_OPTIONS = {
+    "crimp": ("actuator", "crimp_ratio"),
+    "mesh": ("model", "mesh"),
+    "composite": ("composite", "law"),
+    "composite_curve": ("composite", "curve"),
+}
 
 
 def results_options(command: Command) -> Command:
@@ -128,6 +133,14 @@ def photo_options(command: Command) -> Command:
 def model_options(command: Command) -> Command:
     """Add the options of the finite-element model."""
     for option in (
+        click.option(
+            "--composite-curve", type=str, help="Tension test of the composite, for slack-fibre or ogden."
+        ),
+        click.option(
+            "--composite",
+            type=str,
+            help="slack-fibre, ogden (the article's way) or resolved (a coupon) [default: slack-fibre].",
+        ),
         click.option("--mesh", type=str, help="Mesh level: draft, default or fine."),
         click.option(
             "--crimp", type=float, help="Crimp ratio of the paper (amplitude over wavelength), 0.1 to 0.4."

@@ -1,0 +1,77 @@
+"""The composite of an experiment: stated, calibrated to a curve, or by a virtual coupon."""
+
+import numpy as np
+import pytest
+
+from spavision.correlate.model_inputs import model_inputs
+from spavision.errors import InputError
+from spavision.experiment import Experiment
+from spavision.model.materials.curves import UNIAXIAL, nominal_stress
+from spavision.model.materials.library import find_material
+
+STRAIN = np.linspace(0.0, 0.6, 121)
+
+
+@pytest.fixture
+def tension_test(tmp_path):
+    """Ecoflex 1.5 times as stiff, and paper of 8 MPa that is taut from 40 % strain on."""
+    matrix = 1.5 * nominal_stress(find_material("Ecoflex 00-30").law, 1.0 + STRAIN, UNIAXIAL)
+    stress = matrix + 8.0 * np.maximum(STRAIN - 0.4, 0.0)
+    path = tmp_path / "tension.csv"
+    rows = [f"{a:.6f},{b:.9f}" for a, b in zip(STRAIN, stress, strict=True)]
+    path.write_text("\n".join(["strain,nominal_stress_MPa", *rows]) + "\n", encoding="utf-8")
+    return str(path)
+
+
+def inputs(**composite):
+    return model_inputs(Experiment.model_validate({"actuator": {"crimp_ratio": 0.3}, "composite": composite}))
+
+
+def test_stated_paper_is_kept():
+    found = inputs(paper_length_modulus_MPa=7.0)
+    assert found.settings.paper.length_modulus_MPa == 7.0
+    assert found.notes == ()
+
+
+def test_a_curve_calibrates_the_slack_fibre(tension_test):
+    """Known slack strain, stiffness and matrix; the secant of the curved matrix costs some per cent."""
+    settings = inputs(curve=tension_test).settings
+    assert settings.paper.slack_strain(0.3) == pytest.approx(0.4, rel=0.02)
+    assert settings.paper.length_modulus_MPa == pytest.approx(8.0, rel=0.02)
+    assert settings.matrix_stiffness == pytest.approx(1.5, rel=0.01)
+    assert settings.composite is None
+
+
+def test_a_curve_calibrates_one_ogden_law(tension_test):
+    found = inputs(law="ogden", curve=tension_test)
+    law = found.settings.composite.law
+    fitted = nominal_stress(law, 1.0 + STRAIN, UNIAXIAL)
+    assert np.all(np.diff(fitted) > 0.0)
+    assert any("R²" in note and "transition" in note for note in found.notes)
+    assert found.settings.composite.strain_range == pytest.approx((0.0, 0.6))
+
+
+def test_without_a_curve_a_coupon_is_pulled():
+    """Shorter waves have relatively blunter folds and straighten earlier."""
+    slack = [
+        inputs(law="resolved", coupon_wavelength_mm=length).settings.paper.slack_strain(0.3)
+        for length in (5.0, 3.5)
+    ]
+    assert slack[1] < slack[0]
+    straight = np.sqrt(1.0 + 16.0 * 0.3**2) - 1.0
+    assert 0.5 * straight < slack[0] < straight
+
+
+def test_what_contradicts_itself_is_refused(tension_test):
+    with pytest.raises(ValueError, match="leave the key curve out"):
+        inputs(law="resolved", curve=tension_test)
+    with pytest.raises(InputError, match="cannot be read"):
+        inputs(law="ogden", curve="none.csv")
+
+
+def test_a_curve_without_transition_is_refused(tmp_path):
+    path = tmp_path / "tension.csv"
+    rows = [f"{a},{0.1 * a}" for a in STRAIN]
+    path.write_text("\n".join(["strain,nominal_stress_MPa", *rows]), encoding="utf-8")
+    with pytest.raises(InputError, match="no transition"):
+        inputs(curve=str(path))

@@ -116,10 +116,16 @@ def _edges(
 
 
 def _contrast(profiles: FloatArray, distances: FloatArray) -> float:
-    """Step across the rim over the scatter of colours on either side, along rays that show an edge."""
-    inner, outer = (profiles[:, (distances > low) & (distances < high)].reshape(-1, 3) for low, high in SIDES)
-    step = np.median(inner, axis=0) - np.median(outer, axis=0)
-    return float(np.sqrt(step @ np.linalg.solve(_scatter(inner, outer, profiles), step)))
+    """Step across the rim over the scatter of colours on either side, along rays that show an edge.
+
+    Medians, for near its border a cover's colour shows on those rays too.
+    """
+    middle, variance = np.zeros((2, 3)), np.full(3, 4.0)
+    for side, (low, high) in enumerate(SIDES):
+        colours = profiles[:, (distances > low) & (distances < high)].reshape(-1, 3)
+        middle[side] = np.median(colours, axis=0)
+        variance += (1.4826 * np.median(np.abs(colours - middle[side]), axis=0)) ** 2
+    return float(np.sqrt(((middle[0] - middle[1]) ** 2 / variance).sum()))
 
 
 def _scatter(inner: FloatArray, outer: FloatArray, _profiles: FloatArray) -> FloatArray:

@@ -37,6 +37,15 @@ class SlackFibreComposite:
     matrix_stiffness: float
     notes: tuple[str, ...]
 
+    def experiment_keys(self) -> dict[str, float]:
+        """Return what to write under ``[composite]`` in an experiment file."""
+        return {
+            "matrix_stiffness": self.matrix_stiffness,
+            "paper_transition_factor": self.paper.transition_factor,
+            "paper_length_modulus_MPa": self.paper.length_modulus_MPa,
+            "paper_transition_half_width": self.paper.transition_half_width,
+        }
+
 
 @dataclass(frozen=True)
 class OgdenComposite:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from spavision.model.materials.curves import MODES, Mode, nominal_stress
+from spavision.model.materials.curves import MODES, Mode
 
-from .fit import LawFit
-from .measured_curve import MeasuredCurve
+from .measured_curve import FloatArray, MeasuredCurve
+from .statistics import Goodness
 from .transition import StrainTransition
 
 if TYPE_CHECKING:
@@ -27,12 +27,35 @@ _MOST_LAWS = 4
 _LINE_POINTS = 200
 
 
-def fit_figure(fits: Sequence[LawFit], *, transitions: Sequence[tuple[str, StrainTransition]] = ()) -> Figure:
+class Fitted(Protocol):
+    """What a figure shows of a fit."""
+
+    @property
+    def label(self) -> str:
+        """What the law is called."""
+        ...
+
+    @property
+    def curves(self) -> tuple[MeasuredCurve, ...]:
+        """What it was fitted to."""
+        ...
+
+    @property
+    def goodness(self) -> Goodness:
+        """How well it fits."""
+        ...
+
+    def stress_of(self, curve: MeasuredCurve) -> FloatArray:
+        """Return the law's nominal stress at a curve's stretches, in MPa."""
+        ...
+
+
+def fit_figure(fits: Sequence[Fitted], *, transitions: Sequence[tuple[str, StrainTransition]] = ()) -> Figure:
     """Draw nominal stress against strain, one panel a mode: the measured points and the best laws.
 
     Parameters
     ----------
-    fits : sequence of LawFit
+    fits : sequence of Fitted
         Of the same curves, the best first; the first four are drawn.
     transitions : sequence of (str, StrainTransition), optional
         With what each belongs to; drawn into the uniaxial panel.
@@ -69,13 +92,14 @@ def _draw_points(axes: Axes, curves: Sequence[MeasuredCurve]) -> None:
         )
 
 
-def _draw_laws(axes: Axes, fits: Sequence[LawFit], mode: Mode) -> None:
+def _draw_laws(axes: Axes, fits: Sequence[Fitted], mode: Mode) -> None:
     stretches = np.concatenate([curve.stretch for curve in fits[0].curves if curve.mode == mode])
     stretch = np.linspace(min(stretches.min(), 1.0), max(stretches.max(), 1.0), _LINE_POINTS)
+    line = MeasuredCurve("line", mode, stretch, np.zeros(_LINE_POINTS))
     for number, fit in enumerate(fits):
         axes.plot(
             100.0 * (stretch - 1.0),
-            1e3 * nominal_stress(fit.law, stretch, mode),
+            1e3 * fit.stress_of(line),
             color=_COLOURS[number],
             linestyle=_DASHES[number],
             label=f"{fit.label}, R² {fit.goodness.r_squared:.4f}",

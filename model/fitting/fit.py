@@ -32,11 +32,14 @@ class FitSettings:
         Whether the law may lose stability within the range of the data.
     any_modulus : bool
         Accept a shear modulus that is no rubber's.
+    errors_by_curve : bool
+        Standard errors from the scatter between replicates, not from that of points taken as independent.
     """
 
     weights: tuple[float, ...] = ()
     allow_unstable: bool = False
     any_modulus: bool = False
+    errors_by_curve: bool = False
 
 
 @dataclass(frozen=True)
@@ -75,6 +78,8 @@ class LawFit:
     reach : dict of str to tuple of float
         By mode, the stretches that the data call for.
     notes : tuple of str
+    errors_by_curve : bool
+        Whether the standard errors are those between replicates.
     """
 
     key: str
@@ -87,6 +92,12 @@ class LawFit:
     stable: dict[str, StableRange]
     reach: dict[str, tuple[float, float]]
     notes: tuple[str, ...]
+    errors_by_curve: bool = False
+
+    @property
+    def has_replicates(self) -> bool:
+        """Whether a test was made more than once."""
+        return has_replicates(self.curves)
 
     @property
     def is_stable(self) -> bool:
@@ -119,11 +130,13 @@ def fit_law(name: str, curves: Sequence[MeasuredCurve], settings: FitSettings | 
     family = find_family(name)
     data = stack(curves, settings.weights or (1.0,) * len(curves))
     _refuse_too_little(family, data)
+    if settings.errors_by_curve:
+        _refuse_without_replicates(curves)
     if not settings.any_modulus:
         refuse_absurd_modulus(data)
     reach = stretch_reach(curves)
     solution = family.solve(data, reach, allow_unstable=settings.allow_unstable)
-    return _described(family, solution, data, tuple(curves), reach)
+    return _described(family, solution, data, tuple(curves), reach, by_curve=settings.errors_by_curve)
 
 
 @dataclass(frozen=True)
@@ -167,6 +180,20 @@ def fit_all(curves: Sequence[MeasuredCurve], settings: FitSettings | None = None
     return Comparison(tuple(sorted(fits, key=lambda fit: -fit.goodness.r_squared)), tuple(left_out))
 
 
+def has_replicates(curves: Sequence[MeasuredCurve]) -> bool:
+    """Return whether two curves or more are of one mode and one side of rest."""
+    kinds = [(curve.mode.name, bool(curve.strain.max() > -curve.strain.min())) for curve in curves]
+    return len(set(kinds)) < len(kinds)
+
+
+def _refuse_without_replicates(curves: Sequence[MeasuredCurve]) -> None:
+    if not has_replicates(curves):
+        raise InputError(
+            "standard errors between replicates: no test was made twice; give the replicates' files "
+            "together, or leave --errors replicates out"
+        )
+
+
 def _refuse_too_little(family: Family, data: FitData) -> None:
     if len(data) <= family.parameter_count:
         raise InputError(
@@ -183,9 +210,11 @@ def _described(
     data: FitData,
     curves: tuple[MeasuredCurve, ...],
     reach: dict[str, tuple[float, float]],
+    *,
+    by_curve: bool,
 ) -> LawFit:
     residual = data.stress_from(solution.law.derivatives(data.log_stretch)[0]) - data.stress_MPa
-    matrix, apart = covariance(solution, data, residual)
+    matrix, apart = covariance(solution, data, residual, by_curve=by_curve)
     error = np.sqrt(np.diag(matrix))
     parameters = tuple(
         Parameter(name, unit, float(value), float(sigma) if sigma > 0.0 else float("nan"))
@@ -215,4 +244,5 @@ def _described(
         stable=stable,
         reach=reach,
         notes=tuple(notes),
+        errors_by_curve=by_curve,
     )

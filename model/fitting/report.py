@@ -18,7 +18,7 @@ def fit_report(fit: LawFit) -> str:
     sections = [
         [f"[[{fit.label}]]"],
         _goodness(fit),
-        ["parameters ± standard error", *(f"  {_parameter(each)}" for each in fit.parameters)],
+        [_errors_line(fit), *(f"  {_parameter(each)}" for each in fit.parameters)],
         _correlations(fit),
         [f"initial shear modulus G0 = {1e3 * fit.law.shear_modulus_MPa:.4g} kPa"],
         _conventions(fit),
@@ -27,6 +27,16 @@ def fit_report(fit: LawFit) -> str:
         _data_notes(fit),
     ]
     return "\n".join(line for section in sections for line in section)
+
+
+def _errors_line(fit: LawFit) -> str:
+    if fit.errors_by_curve:
+        return f"parameters ± standard error (from the scatter between the {len(fit.curves)} curves)"
+    hint = "; --errors replicates takes it from the replicates" if fit.has_replicates else ""
+    return (
+        "parameters ± standard error (points taken as independent; along one curve they are not, so it is "
+        f"too small{hint})"
+    )
 
 
 def _parameter(parameter: Parameter) -> str:

@@ -26,6 +26,9 @@ _SMALLEST_SLACK = 1e-3
 _SMALLEST_SHARE = 0.01
 """Of the half-width in the slack strain."""
 
+_AT_END = 1e-3
+"""Share of the largest strain within which the slack strain counts as being there."""
+
 _STARTS = ((0.4, 0.2), (0.6, 0.2), (0.6, 0.8), (0.8, 0.2), (0.8, 0.8), (0.95, 0.5))
 """Slack strain over the largest strain, half-width over slack strain."""
 
@@ -50,6 +53,16 @@ class SlackFibreFit:
     curves: tuple[MeasuredCurve, ...]
     standard_errors: tuple[float, ...]
     goodness: Goodness
+
+    @property
+    def label(self) -> str:
+        """What the law is called."""
+        return "matrix with slack fibre"
+
+    @property
+    def is_at_end(self) -> bool:
+        """Whether the slack strain lies at the data's end: the stiff range was hardly reached."""
+        return self.fibre.slack_strain > (1.0 - _AT_END) * max(each.strain.max() for each in self.curves)
 
     @property
     def values(self) -> tuple[float, ...]:

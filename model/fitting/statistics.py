@@ -55,16 +55,23 @@ def r_squared(stress: FloatArray, residual: FloatArray) -> float:
     return 1.0 - float(np.sum(residual**2)) / total if total > 0.0 else float("nan")
 
 
-def covariance(solution: Solution, data: FitData, residual_MPa: FloatArray) -> tuple[FloatArray, bool]:
+def covariance(
+    solution: Solution, data: FitData, residual_MPa: FloatArray, *, by_curve: bool = False
+) -> tuple[FloatArray, bool]:
     """Return the covariance of the parameters, (k, k), and whether the data tell them apart.
 
-    Linearised at the solution. The scatter of each curve is taken from its own residuals, so the weights
-    need not be inverse variances (White's estimator with one variance a curve). It holds for independent
-    errors; what a law misses in shape is no such error, so standard errors from a poor fit mean little.
+    Linearised at the solution. By default for independent errors of the points: the scatter of each curve is
+    taken from its own residuals, so the weights need not be inverse variances (White's estimator with one
+    variance a curve). What a law misses in shape is no such error, so standard errors from a poor fit mean
+    little.
+
+    By curve, the errors along a curve may depend on each other in any way, as those of one specimen do; only
+    the curves are independent (Liang and Zeger's estimator, times m/(m − 1) for m curves). It needs
+    replicates, and with few of them is itself uncertain: by 50 % for three.
 
     References
     ----------
-    H. White, Econometrica 48 (1980) 817-838.
+    H. White, Econometrica 48 (1980) 817-838. K.-Y. Liang, S. L. Zeger, Biometrika 73 (1986) 13-22.
     """
     width = solution.jacobian.shape[1]
     freedom = max(1.0 - width / len(data), 1.0 / len(data))
@@ -79,6 +86,12 @@ def covariance(solution: Solution, data: FitData, residual_MPa: FloatArray) -> t
     apart = bool(singular[-1] * _ILL_CONDITIONED > singular[0])
     pseudo_inverse = np.linalg.pinv(weighted, rcond=1e-13) / scale[:, None]
     spread = solution.directions @ pseudo_inverse
+    if by_curve:
+        # spread already holds one root of the weight: the estimate moves by it times the weighted residual
+        moves = spread * (data.root_weight * residual_MPa)
+        curves = np.unique(data.curve)
+        sums = np.stack([moves[:, data.curve == number].sum(axis=1) for number in curves], axis=1)
+        return len(curves) / (len(curves) - 1.0) * sums @ sums.T, apart
     return (spread * (variance * data.weight)) @ spread.T, apart
 
 

@@ -50,7 +50,8 @@ def coupon(**given: Any) -> None:
 
     Gives the stress-strain curve of a crimp ratio that nobody tested, with primary and secondary modulus and
     the strain transition point by the article's procedure, and the slack-fibre law that stands for it in the
-    actuator's model. Writes curve.csv, a figure, the fields as VTU files and run.json.
+    actuator's model. Writes curve.csv, composite.toml, a figure, the
+    fields as VTU files and run.json.
     """
     from spavision.results import ResultsFolder
 
@@ -75,8 +76,7 @@ def _pull(given: dict[str, Any]) -> Coupon:
     from spavision.model.coupon.geometry import CouponGeometry
     from spavision.model.coupon.paper import paper_of_sheet
     from spavision.model.materials.library import find_material
-
-    from .progress import progress_bar
+    from spavision.workflow.progress import progress_bar
 
     geometry = CouponGeometry(
         given["crimp"], **_given(given, "wavelength_mm", "thickness_mm", "fold_radius_mm")

@@ -10,13 +10,13 @@ from typing import Any
 import pandas as pd
 
 from spavision.errors import InputError
+from spavision.model.composite import PaperLayer
+from spavision.model.coupon.calibration import SlackFibreComposite, calibrated_slack_fibre
 from spavision.model.coupon.coupon import Coupon
-from spavision.model.fitting.slack_fibre_fit import NAMES, SlackFibreFit, slack_fibre_at_transition
 from spavision.model.fitting.transition import StrainTransition
 from spavision.results import ResultsFolder
-
-from .output import csv_text, number
-from .pictures import figure_bytes
+from spavision.table_text import csv_text, number
+from spavision.workflow.pictures import figure_bytes
 
 PUBLISHED = {0.3: 0.388}
 """Measured transition strain by crimp ratio (article, section "Modeling")."""
@@ -34,6 +34,10 @@ def write_coupon(results: ResultsFolder, coupon: Coupon, *, options: Mapping[str
     figure = coupon_figure(coupon, _transition(coupon))
     for ending in ("png", "svg"):
         results.write_bytes(f"figures/coupon.{ending}", figure_bytes(figure, ending))
+    composite = _calibrated(coupon)
+    if composite is not None:
+        lines = [f"{key} = {value:.6g}" for key, value in composite.experiment_keys().items()]
+        results.write_text("composite.toml", "\n".join(["[composite]", *lines]) + "\n")
     fields = results.path / "fields"
     write_vtu_series(coupon, fields)
     results.adopt(fields)
@@ -63,7 +67,7 @@ def curve_table(coupon: Coupon) -> pd.DataFrame:
 
 def coupon_record(coupon: Coupon) -> dict[str, Any]:
     """Return settings and outcome as JSON takes them."""
-    transition, fibre = _transition(coupon), _fibre(coupon)
+    transition, composite = _transition(coupon), _calibrated(coupon)
     return {
         "geometry": asdict(coupon.cell.geometry),
         "paper": {key: _finite(value) for key, value in asdict(coupon.cell.beam.paper).items()},
@@ -80,7 +84,7 @@ def coupon_record(coupon: Coupon) -> dict[str, Any]:
             "primary_modulus_MPa": transition.primary.modulus_MPa,
             "secondary_modulus_MPa": transition.secondary.modulus_MPa,
         },
-        "slack_fibre": None if fibre is None else dict(zip(NAMES, fibre.values, strict=True)),
+        "composite": None if composite is None else composite.experiment_keys(),
     }
 
 
@@ -118,13 +122,15 @@ def coupon_notes(coupon: Coupon) -> list[str]:
     notes = []
     try:
         coupon.transition()
-        fibre = _fibre(coupon)
+        composite = _calibrated(coupon)
     except InputError as error:
         notes.append(f"No transition point: {error}")
-        fibre = None
-    if fibre is not None:
-        values = ", ".join(f"{name} = {value:.4g}" for name, value in zip(NAMES, fibre.values, strict=True))
-        notes.append(f"As a slack fibre ([composite] of the experiment file): {values}")
+        composite = None
+    if composite is not None:
+        notes += [
+            *composite.notes,
+            "composite.toml holds it for an experiment file, or use --composite resolved",
+        ]
     if coupon.ended_by not in ("tear", "end strain"):
         notes.append(f"The test ended early: {coupon.ended_by}")
     if coupon.matrix_stretch[-1] > _CALIBRATED_TO:
@@ -143,9 +149,15 @@ def _transition(coupon: Coupon) -> StrainTransition | None:
         return None
 
 
-def _fibre(coupon: Coupon) -> SlackFibreFit | None:
+def _calibrated(coupon: Coupon) -> SlackFibreComposite | None:
+    """Calibrate the actuator's composite, where the crimp ratio is one that it takes."""
     try:
-        return slack_fibre_at_transition(coupon.curve(), coupon.matrix.law)
+        return calibrated_slack_fibre(
+            coupon.curve(),
+            matrix=coupon.matrix.law,
+            crimp_ratio=coupon.cell.geometry.crimp_ratio,
+            paper=PaperLayer(),
+        )
     except InputError:
         return None
 

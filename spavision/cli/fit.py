@@ -25,7 +25,10 @@ DEFAULT_DENSITY_G_PER_CM3 = 1.1
     default="ogden",
     show_default=True,
     help="neo-hooke, mooney2, mooney3, mooney5, yeoh, gent, arruda-boyce, ogden1 to ogden4 (ogden: three "
-    "terms), or all.",
+    "terms), all of these; or slack-fibre, the composite of a known matrix and paper.",
+)
+@click.option(
+    "--matrix", default="Ecoflex 00-30", show_default=True, help="Material round the fibres of slack-fibre."
 )
 @click.option(
     "--mode",
@@ -45,6 +48,13 @@ DEFAULT_DENSITY_G_PER_CM3 = 1.1
 @click.option("--transition", is_flag=True, help="Strain transition point by the article's procedure.")
 @click.option(
     "--allow-unstable", is_flag=True, help="Let the law lose stability within the range of the data."
+)
+@click.option(
+    "--errors",
+    type=click.Choice(["points", "replicates"]),
+    default="points",
+    show_default=True,
+    help="Standard errors from points taken as independent, or from the scatter between replicates.",
 )
 @click.option("--name", help="Name of the material in the file that is written [default: the first file's].")
 @click.option(
@@ -72,6 +82,9 @@ def fit(data: tuple[Path, ...], **given: Any) -> None:
     folder = given["output"] or output.default_output("fit", data[0].stem)
     results = ResultsFolder(folder, force=given["force"])
     curves = _curves(data, given)
+    if given["law"] == "slack-fibre":
+        _fit_composite(results, curves, data, given)
+        return
     run = fit_run(
         given["law"],
         curves,
@@ -87,6 +100,23 @@ def fit(data: tuple[Path, ...], **given: Any) -> None:
         density_g_per_cm3=density,
     )
     _report(run, results.path, as_json=given["as_json"], quiet=given["quiet"])
+
+
+def _fit_composite(results: Any, curves: Any, data: tuple[Path, ...], given: dict[str, Any]) -> None:
+    from . import output
+    from .fit_composite import composite_lines, composite_record, composite_run, write_composite_run
+
+    for option in ("weights", "allow_unstable"):
+        if given[option]:
+            raise InputError(f"--{option.replace('_', '-')}: does not go with slack-fibre; leave it out")
+    run = composite_run(curves, matrix=given["matrix"], transition=given["transition"])
+    write_composite_run(results, run, inputs=data, options=given)
+    if given["as_json"]:
+        output.print_json({**composite_record(run), "output": str(results.path)})
+        return
+    if not given["quiet"]:
+        output.print_lines(composite_lines(run))
+    output.print_lines([f"Results: {results.path}"])
 
 
 def _curves(data: tuple[Path, ...], given: dict[str, Any]) -> tuple[Any, ...]:
@@ -131,6 +161,7 @@ def _settings(given: dict[str, Any], points: list[int]) -> Any:
         weights=_weights(given["weights"], points),
         allow_unstable=given["allow_unstable"],
         any_modulus=given["stress_unit"] is not None,
+        errors_by_curve=given["errors"] == "replicates",
     )
 
 

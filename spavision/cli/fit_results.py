@@ -19,9 +19,8 @@ from spavision.model.materials.curves import UNIAXIAL
 from spavision.model.materials.law_tables import law_to_table
 from spavision.model.materials.material_files import Material, material_text
 from spavision.results import ResultsFolder
-
-from .output import csv_text, number
-from .pictures import figure_bytes
+from spavision.table_text import csv_text, number
+from spavision.workflow.pictures import figure_bytes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -86,7 +85,7 @@ def fit_run(
         fits, left_out = (fit_law(law, curves, settings),), ()
     if not transition:
         return FitRun(curves, fits, left_out, None, {})
-    curve = _tension_curve(curves)
+    curve = tension_curve(curves)
     measured = strain_transition(curve.strain, curve.stress_MPa, name=curve.name)
     of_laws = {fit.key: transition_or_none(curve.strain, fit.stress_of(curve)) for fit in fits}
     return FitRun(curves, fits, left_out, measured, of_laws)
@@ -129,7 +128,7 @@ def fit_run_record(run: FitRun) -> dict[str, Any]:
             {"name": curve.name, "mode": curve.mode.name, "points": len(curve), "notes": list(curve.notes)}
             for curve in run.curves
         ],
-        "transition": _transition_record(run.measured_transition),
+        "transition": transition_record(run.measured_transition),
         "fits": [_fit_record(fit, run) for fit in run.fits],
         "left_out": list(run.left_out),
     }
@@ -160,7 +159,14 @@ def comparison_rows(run: FitRun) -> tuple[list[str], list[list[str]]]:
     return [*header, "remark"], rows
 
 
-def _tension_curve(curves: Sequence[MeasuredCurve]) -> MeasuredCurve:
+def tension_curve(curves: Sequence[MeasuredCurve]) -> MeasuredCurve:
+    """Return the first uniaxial tension test, of which the transition point is asked.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
     for curve in curves:
         if curve.mode == UNIAXIAL and curve.strain.max() > -curve.strain.min():
             return curve
@@ -234,13 +240,15 @@ def _fit_record(fit: LawFit, run: FitRun) -> dict[str, Any]:
         "aic": good.aic,
         "stable_in_range": fit.is_stable,
         "stable_stretch": {name: [each.lowest, each.highest] for name, each in fit.stable.items()},
-        "transition": _transition_record(run.law_transitions.get(fit.key)),
+        "transition": transition_record(run.law_transitions.get(fit.key)),
         "transition_error": _finite(run.transition_error(fit.key)),
+        "standard_errors": "between curves" if fit.errors_by_curve else "independent points",
         "notes": list(fit.notes),
     }
 
 
-def _transition_record(transition: StrainTransition | None) -> dict[str, float] | None:
+def transition_record(transition: StrainTransition | None) -> dict[str, float] | None:
+    """Return a transition point as JSON takes it."""
     if transition is None:
         return None
     return {

@@ -78,6 +78,35 @@ def test_window_weights_and_modes(spavision, tmp_path):
     assert moduli == pytest.approx([0.175, 0.15], rel=1e-6)
 
 
+def test_slack_fibre_is_fitted_beside_a_known_matrix(spavision, tmp_path):
+    """Paper of 2 MPa taut from 40 % strain on, the matrix's own stress below."""
+    matrix = find_material("Ecoflex 00-30, Marechal 2021").law
+    own = matrix.mu_MPa[0] * (
+        (1 + STRAIN) ** (matrix.alpha[0] - 1) - (1 + STRAIN) ** (-matrix.alpha[0] / 2 - 1)
+    )
+    write(tmp_path / "tension.csv", own + 2.0 * np.maximum(STRAIN - 0.4, 0.0))
+    options = ("--law", "slack-fibre", "--matrix", "Ecoflex 00-30, Marechal 2021", "--transition")
+    outcome = spavision("fit", "tension.csv", *options, "--json")
+    assert outcome.code == 0, outcome.err
+    found = {each["name"]: each["value"] for each in json.loads(outcome.out)["parameters"]}
+    assert found["slack_strain"] == pytest.approx(0.4, abs=1e-3)
+    assert found["length_modulus_MPa"] == pytest.approx(2.0, rel=0.01)
+    folder = tmp_path / "results" / "fit-tension"
+    assert {path.name for path in folder.iterdir()} == {"report.txt", "curves.csv", "figures", "run.json"}
+
+
+def test_standard_errors_between_replicates(spavision, tmp_path):
+    """Two replicates of 100 and 200 kPa: 150 kPa, and with m/(m − 1) = 2 a standard error of 50 kPa."""
+    write(tmp_path / "a.csv")
+    write(tmp_path / "b.csv", 2 * RUBBER)
+    options = ("--law", "neo-hooke", "--errors", "replicates", "--json")
+    outcome = spavision("fit", "a.csv", "b.csv", *options)
+    assert outcome.code == 0, outcome.err
+    (parameter,) = json.loads(outcome.out)["fits"][0]["parameters"]
+    assert parameter["value"] == pytest.approx(0.15, rel=1e-6)
+    assert parameter["standard_error"] == pytest.approx(0.05, rel=1e-6)
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -94,6 +123,9 @@ def test_window_weights_and_modes(spavision, tmp_path):
         (("tension.csv", "--mode", "planar", "--transition"), ("--transition", "uniaxial tension")),
         (("tension.csv", "--density-g-per-cm3", "1100"), ("--density-g-per-cm3",)),
         (("kilopascals.csv",), ("--stress-unit",)),
+        (("tension.csv", "--errors", "replicates"), ("--errors replicates", "twice")),
+        (("tension.csv", "--law", "slack-fibre", "--weights", "1"), ("--weights", "slack-fibre")),
+        (("tension.csv", "--law", "slack-fibre", "--matrix", "Gold"), ("Gold", "Ecoflex 00-30")),
     ],
 )
 def test_bad_input_is_told_and_nothing_is_written(spavision, tmp_path, arguments, words):

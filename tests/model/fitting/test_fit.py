@@ -265,3 +265,24 @@ def test_bad_data_are_told():
         fit_law("hooke", [curve])
     with pytest.raises(InputError, match="positive shear modulus"):
         fit_law("gent", [replace(curve, stress_MPa=-curve.stress_MPa)])
+
+
+def test_standard_errors_between_replicates_hold_for_specimens_that_differ():
+    """Each specimen stiffer or softer as a whole: unit variance between replicates, far more by points."""
+    between, by_points = [], []
+    for seed in range(40):
+        rng = np.random.default_rng(seed)
+        quiet = [synthetic(NeoHooke(0.1), points=30, noise=0.002, seed=100 * seed + i)[0] for i in range(8)]
+        factors = rng.normal(1.0, 0.05, len(quiet))
+        curves = [replace(c, stress_MPa=f * c.stress_MPa) for c, f in zip(quiet, factors, strict=True)]
+        for found, settings in ((between, FitSettings(errors_by_curve=True)), (by_points, FitSettings())):
+            fit = fit_law("neo-hooke", curves, settings)
+            found.append((values(fit)[0] - 0.1) / errors(fit)[0])
+    assert 0.75 < np.sqrt(np.mean(np.square(between))) < 1.45
+    assert np.sqrt(np.mean(np.square(by_points))) > 2.0
+
+
+def test_standard_errors_between_replicates_need_replicates():
+    tension, biaxial, _ = synthetic(NeoHooke(0.1))
+    with pytest.raises(InputError, match="no test was made twice"):
+        fit_law("neo-hooke", [tension, biaxial], FitSettings(errors_by_curve=True))

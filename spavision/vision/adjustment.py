@@ -126,7 +126,7 @@ def adjust(
         Start values; those of the priors and of the homographies when absent.
     least_gain : float
         Gain in chi-square at which to stop: 0.01 moves no parameter by more than a tenth of its standard
-        deviation, 1 is enough where only the lattice's pixels matter.
+        deviation; far more is enough where only the lattice's pixels matter.
     """
     fixed = priors.sigma_log_focal == 0
     camera = priors.camera if start is None or fixed else start.camera

@@ -26,6 +26,10 @@ FRONTIER_SQUARES = (6, 12, 24, 48)
 LEAST_GAIN = 0.003
 """Share of new corners below which the search goes farther out, or ends."""
 
+GAIN_A_CORNER = 0.005
+"""Gain in chi-square, a corner, at which a fit on the way ends: corners then move by a tenth of their noise,
+while focal length, distance and distortion of a board seen from ahead could creep on for long."""
+
 LOWEST_QUALITY = 0.62
 LOWEST_CONTRAST = 0.25
 LARGEST_STEP_SQUARES = 0.2
@@ -57,7 +61,7 @@ def fit_corners(
     """Fit camera and pose to corners on a lattice of unit squares."""
     rows = spread_subset(corners.indices, largest)
     view = View(corners.indices[rows].astype(float), corners.pixels[rows])
-    return adjust([view], priors, start=start, least_gain=1.0)
+    return adjust([view], priors, start=start, least_gain=GAIN_A_CORNER * len(rows))
 
 
 def guided_refill(gray: FloatImage, corners: Corners, priors: Priors) -> Corners:

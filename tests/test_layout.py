@@ -12,13 +12,27 @@ FORBIDDEN = {
     "model": (
         "spavision.vision",
         "spavision.cli",
+        "spavision.workflow",
         "spavision.correlate",
         "spavision.render",
         "spavision.experiment",
     ),
-    "spavision/vision": ("spavision.model", "spavision.cli", "spavision.correlate", "spavision.render"),
-    "spavision/render": ("spavision.model", "spavision.cli", "spavision.correlate", "spavision.vision"),
-    "correlate": ("spavision.cli", "spavision.render"),
+    "spavision/vision": (
+        "spavision.model",
+        "spavision.cli",
+        "spavision.workflow",
+        "spavision.correlate",
+        "spavision.render",
+    ),
+    "spavision/render": (
+        "spavision.model",
+        "spavision.cli",
+        "spavision.workflow",
+        "spavision.correlate",
+        "spavision.vision",
+    ),
+    "correlate": ("spavision.cli", "spavision.workflow", "spavision.render"),
+    "spavision/workflow": ("spavision.cli", "spavision.render"),
 }
 
 

@@ -47,9 +47,9 @@ def calibrate(photos: Path, **given: Any) -> None:
     from spavision.results import ResultsFolder
     from spavision.vision.calibrate import calibrate as run
     from spavision.vision.photos import find_photos
+    from spavision.workflow.progress import progress_bar
 
     from . import output
-    from .progress import progress_bar
 
     settings = _settings(given)
     name = photos.resolve().name
@@ -108,8 +108,7 @@ def _write(
 
     from spavision.vision.camera_file import write_camera
     from spavision.vision.coverage_figure import coverage_figure
-
-    from .pictures import figure_bytes
+    from spavision.workflow.pictures import figure_bytes
 
     results.write("camera.toml", lambda path: write_camera(path, calibration))
     results.write_bytes("figures/coverage.png", figure_bytes(coverage_figure(calibration), "png"))

@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from spavision.table_text import number, records
+
 from .options import experiment_option, model_options, photo_options, results_options
 
 if TYPE_CHECKING:
-    from .comparison import Comparison
+    from spavision.workflow.comparison import Comparison
 
 
 @click.command()
@@ -41,10 +43,11 @@ def correlate(
     discrepancy.csv, figures, report.html and run.json.
     """
     from spavision.results import ResultsFolder
+    from spavision.workflow.comparison import compare_with_model, write_comparison
+    from spavision.workflow.measured_side import take_measurement
 
     from . import output
-    from .comparison import compare_with_model, write_comparison
-    from .measured_side import choose_source, take_measurement
+    from .source import choose_source
 
     source = choose_source(photos, measured, given, pressure_unit=pressure_unit)
     folder = given["output"] or output.default_output("correlate", source.name)
@@ -63,7 +66,7 @@ def _report(comparison: Comparison, reports: list[Path], *, as_json: bool, quiet
     if as_json:
         output.print_json(
             {
-                "discrepancy": output.records(frame),
+                "discrepancy": records(frame),
                 "summary": comparison.sentences(),
                 "output": str(reports[0].parent),
             }
@@ -85,7 +88,7 @@ def _report(comparison: Comparison, reports: list[Path], *, as_json: bool, quiet
         rows = [
             [
                 f"{row['pressure_kPa']:g}",
-                *(output.number(row[name]) for name in list(header)[1:]),
+                *(number(row[name]) for name in list(header)[1:]),
                 row["remark"],
             ]
             for _, row in frame.iterrows()

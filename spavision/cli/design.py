@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .output import number
+from spavision.table_text import number
 
 if TYPE_CHECKING:
     from spavision.model.outputs import DesignOutputs, StretchUse

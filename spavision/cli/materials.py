@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from spavision.table_text import number
+
 if TYPE_CHECKING:
     from spavision.model.materials.material_files import Material
 
@@ -52,7 +54,7 @@ def _print_tables(shown: list[Material]) -> None:
         [
             f"- {each.name}" if each.alternative_to else each.name,
             _record(each)["law"]["kind"],
-            output.number(1e3 * each.law.shear_modulus_MPa, 1),
+            number(1e3 * each.law.shear_modulus_MPa, 1),
             _range(each),
             f"{each.density_g_per_cm3:g}",
             each.source,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -12,25 +11,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    import pandas as pd
+    pass
 
 TEXT_COLUMNS = ("remark", "basis")
 """Columns of whole sentences, which may be folded."""
 
 PLAIN_WIDTH = 160
 """Columns of a table that is not printed to a terminal."""
-
-
-def csv_text(frame: pd.DataFrame) -> str:
-    """Return a table as CSV text: seven significant digits, an empty cell for a gap."""
-    text: str = frame.to_csv(index=False, float_format="%.7g", lineterminator="\n")
-    return text
-
-
-def records(frame: pd.DataFrame) -> list[dict[str, Any]]:
-    """Return a table as a list of rows fit for JSON: None for a gap."""
-    rows = frame.to_dict(orient="records")
-    return [{key: _finite_or_none(value) for key, value in row.items()} for row in rows]
 
 
 def print_json(content: Mapping[str, Any]) -> None:
@@ -65,20 +52,6 @@ def warn(sentence: str) -> None:
     click.echo(f"spavision: note: {sentence}", err=True)
 
 
-def number(value: float, decimals: int = 2) -> str:
-    """Format a number for a printed table; a gap is a dash."""
-    return f"{value:.{decimals}f}" if math.isfinite(value) else "–"
-
-
 def default_output(command: str, name: str) -> Path:
     """Return the results folder that a command writes to unless told otherwise."""
     return Path("results") / f"{command}-{name}"
-
-
-def finite_list(values: Sequence[float]) -> list[float | None]:
-    """Return numbers fit for JSON: None for a gap."""
-    return [_finite_or_none(float(value)) for value in values]
-
-
-def _finite_or_none(value: Any) -> Any:
-    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -96,8 +96,7 @@ def _trajectory(table: Path | None, crimp: float | None) -> Trajectory:
 
 def _write(results: ResultsFolder, settings: RenderSettings, path: Trajectory, *, quiet: bool) -> None:
     from spavision.render.photo_set import photo_set
-
-    from .progress import progress_bar
+    from spavision.workflow.progress import progress_bar
 
     with progress_bar("photos", total=len(path), quiet=quiet) as advance:
         for number, (name, content) in enumerate(photo_set(settings, path), start=1):

@@ -7,6 +7,8 @@ from typing import Any
 
 import click
 
+from spavision.table_text import csv_text, finite_list, number, records
+
 from .options import MODEL_OPTIONS, experiment_option, model_options, results_options
 
 DEFAULT_PRESSURES = "0:65:5"
@@ -41,9 +43,9 @@ def simulate(pressures_kpa: str, write_deck: Path | None, model: str, **given: A
     animation of the ramp.
     """
     from spavision.results import ResultsFolder
+    from spavision.workflow.model_run import run_model, simulation_record, write_model_deck, write_simulation
 
     from . import output
-    from .model_run import run_model, simulation_record, write_model_deck, write_simulation
     from .options import experiment_for, parse_pressures
 
     experiment = experiment_for(None, given["experiment"], given, MODEL_OPTIONS)
@@ -70,13 +72,14 @@ def simulate(pressures_kpa: str, write_deck: Path | None, model: str, **given: A
 
 
 def _simulate_reduced(experiment: Any, pressures: Any, results: Any, given: dict[str, Any]) -> None:
+    from spavision.workflow.model_run import run_reduced_model
+
     from . import output
-    from .model_run import run_reduced_model
 
     reduced = run_reduced_model(experiment, pressures)
     path = reduced.tip_path
-    results.write_text("simulation.csv", output.csv_text(path.table()))
-    record = {"model": "reduced", "volume_ratio": output.finite_list(reduced.volume_ratio.tolist())}
+    results.write_text("simulation.csv", csv_text(path.table()))
+    record = {"model": "reduced", "volume_ratio": finite_list(reduced.volume_ratio.tolist())}
     results.write_record(
         {
             "command": "simulate",
@@ -86,7 +89,7 @@ def _simulate_reduced(experiment: Any, pressures: Any, results: Any, given: dict
         }
     )
     if given["as_json"]:
-        output.print_json({"tip_path": output.records(path.table()), **record, "output": str(results.path)})
+        output.print_json({"tip_path": records(path.table()), **record, "output": str(results.path)})
         return
     if not given["quiet"]:
         _print_path(path)
@@ -97,7 +100,7 @@ def _print_path(path: Any) -> None:
     from . import output
 
     rows = [
-        [f"{p:g}", output.number(x), output.number(y), reason]
+        [f"{p:g}", number(x), number(y), reason]
         for p, x, y, reason in zip(
             path.pressure_kPa, path.ux_mm, path.uy_mm, path.reason or ("",) * len(path), strict=True
         )
@@ -106,14 +109,15 @@ def _print_path(path: Any) -> None:
 
 
 def _report(simulation: Any, folder: Path, *, as_json: bool, quiet: bool) -> None:
+    from spavision.workflow.model_run import simulation_record
+
     from . import output
-    from .model_run import simulation_record
 
     path = simulation.tip_path
     if as_json:
         output.print_json(
             {
-                "tip_path": output.records(path.table()),
+                "tip_path": records(path.table()),
                 **simulation_record(simulation),
                 "output": str(folder),
             }

@@ -7,10 +7,12 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
+from spavision.table_text import number, records
+
 from .options import PHOTO_OPTIONS, experiment_option, photo_options, results_options
 
 if TYPE_CHECKING:
-    from .measure import Measurement
+    from spavision.workflow.measure import Measurement
 
 NOT_ALL_OK = 3
 """Exit code of ``--strict`` where a reading is not ``ok``; the results are written all the same."""
@@ -34,9 +36,9 @@ def track(photos: Path, **given: Any) -> None:
     x_px and y_px of the marker or yes under reject, and a note.
     """
     from spavision.results import ResultsFolder
+    from spavision.workflow.measure import measure, write_measurement
 
     from . import output
-    from .measure import measure, write_measurement
     from .options import experiment_file, experiment_for
 
     experiment = experiment_for(photos, given["experiment"], given, PHOTO_OPTIONS)
@@ -82,7 +84,7 @@ def _report(measurement: Measurement, folder: Path, *, as_json: bool, quiet: boo
     if as_json:
         output.print_json(
             {
-                "tip_path": output.records(path.table()),
+                "tip_path": records(path.table()),
                 "track": measurement.record(),
                 "output": str(folder),
             }
@@ -104,7 +106,7 @@ def _report(measurement: Measurement, folder: Path, *, as_json: bool, quiet: boo
             [
                 photo,
                 f"{p:g}",
-                *(output.number(value, 3) for value in (x, sx, y, sy)),
+                *(number(value, 3) for value in (x, sx, y, sy)),
                 f"{status}: {why}" if why else status,
             ]
             for photo, p, x, sx, y, sy, status, why in columns

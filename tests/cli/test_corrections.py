@@ -58,7 +58,7 @@ def test_a_bad_corrections_file_is_refused(spavision, photos, rows, words):
 
 
 def test_the_word_reject_serves_in_the_place_of_a_pixel(tmp_path):
-    from spavision.cli.corrections_file import read_corrections
+    from spavision.workflow.corrections_file import read_corrections
 
     path = tmp_path / "corrections.csv"
     path.write_text("photo,x_px,y_px,note\na.jpg,reject,,blurred\nb.jpg,1.5,2,\n")

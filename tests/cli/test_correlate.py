@@ -120,7 +120,7 @@ def test_bad_options_are_refused(spavision, tmp_path, options, words):
 
 
 def test_a_crimp_ratio_without_sample_photos_takes_the_nearest_and_says_so():
-    from spavision.cli.measured_side import choose_source
+    from spavision.cli.source import choose_source
 
     nothing = dict.fromkeys(("experiment", "pressures", "pressure_step_kpa", "mesh"))
     source = choose_source(None, None, {**nothing, "crimp": 0.22}, pressure_unit="kPa")

@@ -8,9 +8,9 @@ import pandas as pd
 import pytest
 from PIL import Image
 
-from spavision.cli.photo_series import photo_series
 from spavision.experiment import Experiment
 from spavision.results import ResultsFolder
+from spavision.workflow.photo_series import photo_series
 
 from .conftest import A_FEW, SAMPLES
 

@@ -11,10 +11,11 @@ import click
 
 from spavision.cli import output
 from spavision.cli.options import results_options
-from spavision.cli.progress import progress_bar
 from spavision.errors import InputError
 from spavision.experiment import Experiment, read_experiment
 from spavision.results import ResultsFolder
+from spavision.table_text import csv_text
+from spavision.workflow.progress import progress_bar
 
 if TYPE_CHECKING:
     from spavision.correlate.study.case import Case, CaseResult
@@ -146,8 +147,8 @@ class Setup:
 
         frame = case_table(cases, results)
         bad = frame[frame["status"] != "ok"]
-        self.results.write_text("cases.csv", output.csv_text(frame))
-        self.results.write_text("failed.csv", output.csv_text(bad))
+        self.results.write_text("cases.csv", csv_text(frame))
+        self.results.write_text("failed.csv", csv_text(bad))
         for _, row in bad.head(_REASONS_SHOWN).iterrows():
             output.warn(f"case {row['case']} {row['status']}: {row['reason']}")
         if len(bad) > _REASONS_SHOWN:

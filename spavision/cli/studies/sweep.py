@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from spavision.errors import InputError
+from spavision.table_text import csv_text, records
 
 from .setup import Setup, prepare, study_options
 
@@ -50,7 +51,7 @@ def sweep(file: Path | None, vary: tuple[str, ...], **given: Any) -> None:
     setup.results.write_record({**setup.record(), "grid": {name: list(each) for name, each in grid.items()}})
     frame = case_table(cases, results)
     if given["as_json"]:
-        output.print_json({"cases": output.records(frame), "output": str(setup.results.path)})
+        output.print_json({"cases": records(frame), "output": str(setup.results.path)})
         return
     if not given["quiet"]:
         names = [*grid, "first_extremum_mm", "mode_change_kPa", "second_extreme_mm"]
@@ -64,16 +65,15 @@ def sweep(file: Path | None, vary: tuple[str, ...], **given: Any) -> None:
 def _write_paths(setup: Setup, cases: Any, results: Any) -> None:
     import pandas as pd
 
-    from spavision.cli import output
-    from spavision.cli.pictures import figure_bytes
     from spavision.correlate.study.figures import sweep_figure
+    from spavision.workflow.pictures import figure_bytes
 
     paths = [result.path(setup.pressures_kPa) for result in results]
     tables = [
         path.table()[["pressure_kPa", "ux_mm", "uy_mm"]].assign(case=case.name, **case.values)
         for path, case in zip(paths, cases, strict=True)
     ]
-    setup.results.write_text("paths.csv", output.csv_text(pd.concat(tables)))
+    setup.results.write_text("paths.csv", csv_text(pd.concat(tables)))
     labels = [", ".join(f"{name} {_cell(value)}" for name, value in case.values.items()) for case in cases]
     figure = sweep_figure(paths, labels, title="Tip paths of the sweep")
     for ending in ("png", "svg"):

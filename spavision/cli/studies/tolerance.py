@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from spavision.table_text import csv_text, number, records
+
 from .setup import Setup, prepare, study_options
 
 if TYPE_CHECKING:
@@ -38,7 +40,7 @@ def tolerance(file: Path, **given: Any) -> None:
     found = band(nominal.path(setup.pressures_kPa), results)
     _write(setup, found)
     if given["as_json"]:
-        output.print_json({"band": output.records(found.table()), "output": str(setup.results.path)})
+        output.print_json({"band": records(found.table()), "output": str(setup.results.path)})
         return
     if not given["quiet"]:
         _print(found)
@@ -46,11 +48,10 @@ def tolerance(file: Path, **given: Any) -> None:
 
 
 def _write(setup: Setup, found: Band) -> None:
-    from spavision.cli import output
-    from spavision.cli.pictures import figure_bytes
     from spavision.correlate.study.figures import band_figure
+    from spavision.workflow.pictures import figure_bytes
 
-    setup.results.write_text(BAND_NAME, output.csv_text(found.table()))
+    setup.results.write_text(BAND_NAME, csv_text(found.table()))
     figure = band_figure(found, title=f"{found.n_cases} cases, {setup.study.study.model} model")
     for ending in ("png", "svg"):
         setup.results.write_bytes(f"figures/tolerance.{ending}", figure_bytes(figure, ending))
@@ -66,9 +67,7 @@ def _print(found: Band) -> None:
         row = [f"{pressure:g}"]
         for axis, nominal in enumerate((found.nominal.ux_mm, found.nominal.uy_mm)):
             low, _, high = found.quantiles_mm[:, axis, index]
-            row += [
-                output.number(value) for value in (nominal[index], low, high, found.sigma_mm[axis, index])
-            ]
+            row += [number(value) for value in (nominal[index], low, high, found.sigma_mm[axis, index])]
         left = found.n_cases - int(found.n_reached[index])
         rows.append([*row, f"{left} of {found.n_cases} cases did not get here" if left else ""])
     output.print_table("Tip in mm: 95 % of the cases lie between low and high", [*header, "remark"], rows)

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from spavision.results import versions
+from spavision.table_text import number
 
 from .frame_pictures import PhotoPictures, model_pictures
-from .output import number
 
 if TYPE_CHECKING:
     from spavision.correlate.centre_lines import ShapeDiscrepancy

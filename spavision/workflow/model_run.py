@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from spavision.errors import InputError
+from spavision.errors import InputError, InputWarning
 from spavision.experiment import Experiment
 from spavision.results import ResultsFolder
+from spavision.table_text import csv_text
 from spavision.tip_path import FloatArray
 
-from .output import csv_text, warn
 from .progress import progress_bar
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ def run_model(experiment: Experiment, pressure_kPa: FloatArray, *, quiet: bool) 
 
     inputs = model_inputs(experiment)
     for note in inputs.notes:
-        warn(note)
+        warnings.warn(note, InputWarning, stacklevel=2)
     with progress_bar("model", total=float(pressure_kPa.max()), quiet=quiet) as advance:
         return simulate(
             inputs.geometry,

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 from spavision.errors import InputError
 from spavision.results import ResultsFolder
+from spavision.table_text import csv_text
 
 from .measure import write_measurement
 from .measured_side import MeasuredSide
 from .model_run import run_model, simulation_record, write_simulation
-from .output import csv_text
 from .pictures import figure_bytes
 from .report_page import photo_pictures, report_content
 from .shape_comparison import compare_shapes

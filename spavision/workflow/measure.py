@@ -11,9 +11,9 @@ import numpy as np
 
 from spavision.experiment import Experiment
 from spavision.results import ResultsFolder
+from spavision.table_text import csv_text, number
 from spavision.tip_path import FloatArray
 
-from .output import csv_text, number
 from .photo_series import PhotoSeries, photo_series
 from .pictures import jpeg
 from .progress import progress_bar

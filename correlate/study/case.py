@@ -16,6 +16,7 @@ import numpy as np
 import spavision.model
 from spavision.experiment import Experiment
 from spavision.model.materials.library import find_material
+from spavision.results import sha256
 from spavision.tip_path import FloatArray, TipPath
 
 from .parameters import MODEL_SECTIONS, Value
@@ -74,11 +75,14 @@ class Case:
         """
         sections = {name: getattr(self.experiment, name).model_dump() for name in MODEL_SECTIONS}
         laws = {key: repr(find_material(sections[section][key])) for section, key in _MATERIALS}
+        # The coupon's test data, where the experiment names any.
+        curve = sections["composite"].get("curve")
         return {
             "model": self.model,
             "mesh": self.experiment.model.mesh,
             **sections,
             "materials": laws,
+            "curve": sha256(Path(curve)) if curve else None,
             "pressures_kPa": list(self.pressures_kPa),
             "version": self.version,
         }

@@ -91,9 +91,9 @@ def suspects_of(study: StudyFile, nominal: Experiment, *, source: str) -> tuple[
     )
 
 
-def shares(suspects: tuple[Suspect, ...], values: list[dict[str, Value]]) -> FloatArray:
-    """Return the place of each case in the unit cube of the suspects' probabilities, (n, n_suspects)."""
-    return np.array([[one.share(case[one.name]) for one in suspects] for case in values])
+def nominal_point(suspects: tuple[Suspect, ...]) -> FloatArray:
+    """Return the place of the nominal values in the unit cube, shape (n_suspects,)."""
+    return np.array([one.share(one.nominal) for one in suspects])
 
 
 def _suspect(name: str, section: SuspectSection, experiment: Experiment, where: str) -> Suspect:
@@ -101,7 +101,7 @@ def _suspect(name: str, section: SuspectSection, experiment: Experiment, where: 
     field_of = type(getattr(experiment, place)).model_fields[name]
     common: dict[str, Any] = {"name": name, "section": place, "description": field_of.description or ""}
     if section.distribution == "choice":
-        options = _options(section, nominal, where)
+        options = _options(section, name, nominal, where)
         return Suspect(nominal=options[0] if nominal is None else nominal, options=options, **common)
     if isinstance(nominal, str):
         raise InputError(f'{where}: {name} is {nominal!r}, not a number; use distribution = "choice"')
@@ -109,7 +109,14 @@ def _suspect(name: str, section: SuspectSection, experiment: Experiment, where: 
     if centre is None:
         raise InputError(f"{where}: {name} has no nominal value; give it in the experiment file, or mean")
     distribution = _distribution(section, float(centre), where)
-    return Suspect(nominal=float(centre if nominal is None else nominal), distribution=distribution, **common)
+    low, high = distribution.support()
+    middle = float(centre if nominal is None else nominal)
+    if not low <= middle <= high:
+        raise InputError(
+            f"{where}: the nominal {name} is {middle:g}, outside {low:g} to {high:g}; widen the distribution "
+            "or correct the experiment file"
+        )
+    return Suspect(nominal=middle, distribution=distribution, **common)
 
 
 def _distribution(section: SuspectSection, centre: float, where: str) -> Any:
@@ -124,21 +131,19 @@ def _distribution(section: SuspectSection, centre: float, where: str) -> Any:
     return stats.triang((centre - low) / (high - low), low, high - low)
 
 
-def _options(section: SuspectSection, nominal: Value | None, where: str) -> tuple[Value, ...]:
-    if section.options is not None:
-        options: tuple[Value, ...] = section.options
-        if isinstance(nominal, str):
-            options = tuple(sorted(options, key=_shear_modulus_MPa))
-        return options
-    if not isinstance(nominal, str):
-        raise InputError(f"{where}: a choice of a number needs options = [...]; add it")
-    family = find_material(nominal).alternative_to or nominal
-    names = [family, *(each.name for each in alternatives(family))]
-    if nominal not in names:
-        names.append(nominal)
-    if len(names) < 2:
-        raise InputError(f"{where}: {nominal} has no alternatives in the library; give options = [...]")
-    return tuple(sorted(names, key=_shear_modulus_MPa))
+def _options(section: SuspectSection, name: str, nominal: Value | None, where: str) -> tuple[Value, ...]:
+    is_material = name.endswith("_material")
+    options = section.options
+    if options is None:
+        if not is_material:
+            raise InputError(f"{where}: a choice of {name} needs options = [...]; add it")
+        family = find_material(str(nominal)).alternative_to or str(nominal)
+        options = (family, *(each.name for each in alternatives(family)))
+        if len(options) < 2:
+            raise InputError(f"{where}: {nominal} has no alternatives in the library; give options = [...]")
+    if nominal is not None and nominal not in options:
+        raise InputError(f"{where}: the nominal {name} is {nominal!r}, expected it among the options; add it")
+    return tuple(sorted(options, key=_shear_modulus_MPa)) if is_material else options
 
 
 def _shear_modulus_MPa(name: Value) -> float:

@@ -10,6 +10,7 @@ COMMANDS = {
     "starter": "Print a study file to start from.",
     "sweep": "Run the model over a grid of any parameters.",
     "tolerance": "Band around the modelled path that the suspects' scatter leaves: u_input.",
+    "attribute": "How much of the discrepancy each suspect can explain: sensitivities, Sobol indices.",
 }
 """Name and one line of help of each command; the module of the same name in ``studies`` holds it."""
 
@@ -42,6 +43,7 @@ def study(context: click.Context) -> None:
     \b
     spavision study starter > study.toml
     spavision study tolerance study.toml --workers 2
+    spavision study attribute study.toml --measured track.csv
 
     Each finished case is kept in the results folder: an interrupted study goes on where it stopped, and
     studies of the same folder share their cases. Cases that fail are listed with the reason.

@@ -1,0 +1,132 @@
+"""``spavision study attribute``: how much of the discrepancy each suspect can explain."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from spavision.table_text import csv_text, number, records
+
+from .setup import Setup, prepare, study_options
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from spavision.correlate.study.attribution import Attribution
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option(
+    "--measured", type=click.Path(path_type=Path), help="CSV with pressure_kPa, ux_mm, uy_mm to explain."
+)
+@click.option(
+    "--full-runs",
+    type=click.IntRange(0, 100),
+    default=2,
+    show_default=True,
+    help="Held-out cases that are also run with the full model.",
+)
+@study_options
+def attribute(file: Path, measured: Path | None, full_runs: int, **given: Any) -> None:
+    """Ask which suspects of FILE could have caused the discrepancy.
+
+    Each suspect alone from end to end (local.csv); all at once for an emulator of the model, which is
+    checked against held-out cases, and its Sobol indices (sobol.csv); and what each can explain of the
+    distance to the measured path (attribution.csv, figures).
+    """
+    from spavision.cli import output
+
+    from .measured import measured_paths
+
+    setup = prepare("attribute", file, given)
+    target = measured_paths(setup, measured)[0]
+    found = _attribution(setup, target, full_runs)
+    _write(setup, found)
+    if given["as_json"]:
+        output.print_json(
+            {
+                "attribution": records(found.table()),
+                "findings": found.sentences(),
+                "output": str(setup.results.path),
+            }
+        )
+        return
+    if not given["quiet"]:
+        _print(found.table())
+        output.print_lines(found.sentences())
+    output.print_lines([f"Results: {setup.results.path}"])
+
+
+def _attribution(setup: Setup, target: Any, full_runs: int) -> Attribution:
+    from spavision.correlate.study.attribution import Plan, attribute
+    from spavision.model.reduced.one_thread import one_thread
+
+    study = setup.study.study
+    plan = Plan(
+        suspects=setup.suspects(),
+        experiment=setup.nominal,
+        pressures_kPa=setup.pressures_kPa,
+        n_cases=study.cases,
+        n_full=full_runs,
+        sampling=study.sampling,
+        seed=study.seed,
+    )
+    seen: list[Any] = []
+
+    def run(values: Any, model: str) -> Any:
+        cases = [setup.case(each, model=model, crimp_ratio=target.crimp_ratio) for each in values]
+        results = setup.run(cases, title=f"{model or study.model} model")
+        seen.extend(zip(cases, results, strict=True))
+        return results
+
+    # The emulator's matrices are small: one thread is faster.
+    with one_thread():
+        found = attribute(plan, target.path, run)
+    setup.write_cases([case for case, _ in seen], [result for _, result in seen])
+    return found
+
+
+def _write(setup: Setup, found: Attribution) -> None:
+    from spavision.correlate.study.attribution_figures import attribution_figure, sobol_figure
+    from spavision.correlate.study.sensitivity import local_table
+    from spavision.workflow.pictures import figure_bytes
+
+    results = setup.results
+    results.write_text("attribution.csv", csv_text(found.table()))
+    results.write_text("sobol.csv", csv_text(found.sobol.table()))
+    results.write_text("local.csv", csv_text(local_table(found.local, found.sobol.pressure_kPa)))
+    figures = {
+        "attribution": attribution_figure(found.alone, found.together, title="What each suspect can explain"),
+        "sobol": sobol_figure(found.sobol),
+    }
+    for name, figure in figures.items():
+        for ending in ("png", "svg"):
+            results.write_bytes(f"figures/{name}.{ending}", figure_bytes(figure, ending))
+    results.write_record({**setup.record(), "findings": found.sentences()})
+
+
+def _print(frame: pd.DataFrame) -> None:
+    from spavision.cli import output
+
+    rows = [
+        [
+            row["suspect"],
+            _cell(row["nominal"]),
+            _cell(row["low"]),
+            _cell(row["high"]),
+            _cell(row["best"]),
+            f"{100 * row['explained']:.0f} %",
+            number(row["largest_change_ux_mm"], 1),
+            number(row["largest_total_index"]),
+        ]
+        for row in frame.to_dict(orient="records")
+    ]
+    header = ["suspect", "nominal", "low", "high", "best", "explains", "Δx end to end, mm", "Sobol total"]
+    output.print_table("What each suspect can explain of the discrepancy", header, rows)
+
+
+def _cell(value: Any) -> str:
+    return value if isinstance(value, str) else f"{value:.4g}"

@@ -129,7 +129,7 @@ def _complete(gray: FloatImage, small: FloatImage, factor: float, corners: Corne
         pixels = fit_saddles(gray, corners.pixels, *vectors)
         seen: BoolArray = np.all(np.isfinite(pixels), axis=1)
         corners = replace(corners, pixels=pixels).take(seen)
-    corners, fit = drop_outliers(corners, priors)
+    corners, fit = drop_outliers(corners, priors, last=True)
     if fit is None or len(corners.indices) < FEWEST_CORNERS:
         return None
     return _view(corners, fit)

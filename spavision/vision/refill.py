@@ -108,11 +108,14 @@ def guided_refill(gray: FloatImage, corners: Corners, priors: Priors) -> Corners
 
 
 def drop_outliers(
-    corners: Corners, priors: Priors, *, start: Adjustment | None = None
+    corners: Corners, priors: Priors, *, start: Adjustment | None = None, last: bool = False
 ) -> tuple[Corners, Adjustment | None]:
-    """Fit, drop what lies beyond 4 sigma or stands alone, and fit again; None when too little is left."""
+    """Fit, drop what lies beyond 4 sigma or stands alone; None when too little is left.
+
+    The ``last`` time it is done once more, with more corners in the fit.
+    """
     fit = start
-    for largest in (FIT_CORNERS, FINAL_CORNERS):
+    for largest in (FIT_CORNERS, FINAL_CORNERS) if last else (FIT_CORNERS,):
         if len(corners.indices) < 12:
             return corners, None
         fit = fit_corners(corners, priors, largest=largest, start=fit)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from spavision.model.materials.conventions import CONVENTIONS, MU_OVER_ALPHA, moduli_in
 from spavision.model.materials.ogden import Ogden
 
 from .fit import LawFit, Parameter
+from .measured_curve import MeasuredCurve
 
 _WORTH_TELLING = 0.5
 """Correlations smaller than this are left out of the report."""
@@ -24,7 +27,7 @@ def fit_report(fit: LawFit) -> str:
         _conventions(fit),
         ["stable (Drucker, incompressible)", *(f"  {each}" for each in fit.stable.values())],
         ["notes", *(f"  {note}" for note in fit.notes)] if fit.notes else [],
-        _data_notes(fit),
+        data_notes(fit.curves),
     ]
     return "\n".join(line for section in sections for line in section)
 
@@ -84,6 +87,7 @@ def _conventions(fit: LawFit) -> list[str]:
     return lines
 
 
-def _data_notes(fit: LawFit) -> list[str]:
-    lines = [f"  {curve.name}: {note}" for curve in fit.curves for note in curve.notes]
+def data_notes(curves: Sequence[MeasuredCurve]) -> list[str]:
+    """Return what was recognised in, and done to, the curves, as lines of text."""
+    lines = [f"  {curve.name}: {note}" for curve in curves for note in curve.notes]
     return ["data", *lines] if lines else []

@@ -86,7 +86,7 @@ def parse_table(text: str, *, source: str) -> TextTable:
     if first is None:
         raise InputError(
             f"{source}: no line holds two numbers, expected columns of strain and stress separated by "
-            "semicolons, commas, tabs or blanks"
+            "semicolons, commas, tabs or blanks, neither of them empty"
         )
     width = len(split[first][1])
     header = _header([cells for _, cells in split[:first]], width)

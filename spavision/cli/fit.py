@@ -190,10 +190,12 @@ def _report(run: FitRun, folder: Path, *, as_json: bool, quiet: bool) -> None:
         output.print_json({**fit_run_record(run), "output": str(folder)})
         return
     if not quiet:
-        from spavision.model.fitting.report import fit_report
+        from spavision.model.fitting.report import data_notes, fit_report
 
         if len(run.fits) == 1:
             output.print_lines([fit_report(run.fits[0])])
+        else:
+            output.print_lines(data_notes(run.curves))
         output.print_table("Fitted laws", *comparison_rows(run))
         output.print_lines([*run.left_out, *run.transition_lines()])
     output.print_lines([f"Results: {folder}"])

@@ -63,6 +63,13 @@ def test_all_laws_with_transition_as_json(spavision, tmp_path):
     assert len(list((tmp_path / "results" / "fit-tension").glob("material-*.toml"))) == 11
 
 
+def test_what_was_done_to_the_data_is_told_with_all_laws_too(spavision, tmp_path):
+    write(tmp_path / "tension.csv", RUBBER + 0.02)
+    outcome = spavision("fit", "tension.csv", "--law", "all")
+    assert outcome.code == 0, outcome.err
+    assert "stress of 20 kPa at zero strain: the curve is shifted by it" in outcome.out
+
+
 def test_window_weights_and_modes(spavision, tmp_path):
     write(tmp_path / "a.csv")
     write(tmp_path / "b.csv", 2 * RUBBER)

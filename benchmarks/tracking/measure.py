@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
+from operator import ne
 
 import numpy as np
 from corners import CornerScore, score
@@ -15,7 +16,7 @@ from spavision.vision.observe import Observation
 from spavision.vision.settings import TrackSettings
 from spavision.vision.track import observe_photos, track_observations
 
-DRAWS = 16
+DRAWS = 8
 """Set-ups told to the tracker, each a little wrong, from which the coverage of its intervals is found."""
 
 WIDTH_95 = 1.96
@@ -27,7 +28,7 @@ class SetScore:
 
     ``errors_mm`` (n,) are lengths, one a reading but the reference; ``normalised`` holds the errors of single
     components over their stated sigma, over all draws; ``falsely_read`` counts readings where none can be,
-    ``lost`` good photos without a reading.
+    ``lost`` good photos without a reading, ``other_status`` photos whose status is not the expected one.
     """
 
     errors_mm: np.ndarray
@@ -36,6 +37,7 @@ class SetScore:
     read: int
     falsely_read: int
     lost: int
+    other_status: int
     corners: tuple[CornerScore, ...]
     seconds_per_megapixel: float
     cpu_seconds_per_megapixel: float
@@ -72,6 +74,7 @@ def measure(benchmark: BenchmarkSet, truth: SetTruth) -> SetScore:
         read=int(measured.sum()),
         falsely_read=int((measured & ~expected).sum()),
         lost=int((~measured & expected).sum()),
+        other_status=sum(map(ne, result.tip_path.status, benchmark.expected_status)),
         corners=tuple(
             score(truth, photo, reading.corners_px, reading.indices)
             for photo, reading in enumerate(result.readings)
@@ -84,7 +87,7 @@ def measure(benchmark: BenchmarkSet, truth: SetTruth) -> SetScore:
 def told(benchmark: BenchmarkSet) -> TrackSettings:
     """What a careful user would say of the set-up."""
     marker, settings = benchmark.settings.marker, benchmark.settings
-    return TrackSettings(
+    settled = TrackSettings(
         square_mm=settings.board.square_mm,
         standoff_mm=settings.actuator.standoff_mm,
         distance_mm=settings.camera.distance_mm,
@@ -92,6 +95,7 @@ def told(benchmark: BenchmarkSet) -> TrackSettings:
         base_marker_colour=marker.base_marker_colour if marker.base_marker else None,
         sigma_out_of_plane_mm=0.0,
     )
+    return replace(settled, **benchmark.told)
 
 
 def _normalised_errors(

@@ -1,6 +1,6 @@
 """Accuracy of the tracker on rendered sets of photographs, beside ready-made chessboard detectors.
 
-Run: python benchmarks/tracking/run.py [SET ...] [--seeds N] [--large] [--cache FOLDER] [--output FOLDER]
+Run: python benchmarks/tracking/run.py [SET ...] [--seeds N ...] [--large] [--cache FOLDER] [--output FOLDER]
 
 Rendering takes far longer than tracking: give a cache folder to run again quickly. calib-targets takes part
 where it is installed.
@@ -27,7 +27,7 @@ def main() -> None:
     """Measure the wanted sets; print both tables and save them as CSV."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("sets", nargs="*", help="names of sets; all if none is given")
-    parser.add_argument("--seeds", type=int, default=1, help="sets of each name")
+    parser.add_argument("--seeds", type=int, nargs="+", default=[1], help="seeds of each set")
     parser.add_argument("--large", action="store_true", help="sets of very large photos too")
     parser.add_argument("--no-peers", action="store_true", help="leave out the other detectors")
     parser.add_argument("--cache", type=Path, help="folder to keep the rendered photos in")
@@ -36,7 +36,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as scratch:
         cache = options.cache or Path(scratch)
         tracker, peers = [], []
-        for benchmark in benchmark_sets(tuple(options.sets), seeds=options.seeds, large=options.large):
+        for benchmark in benchmark_sets(tuple(options.sets), seeds=tuple(options.seeds), large=options.large):
             truth = rendered(benchmark, cache)
             result = measure(benchmark, truth)
             tracker.append((benchmark, result))
@@ -58,16 +58,19 @@ def _row(benchmark: BenchmarkSet, result: SetScore) -> dict[str, object]:
     """One line of the tracker's table."""
     errors, limits = result.errors_mm, benchmark.limits
     median, worst = (float(np.median(errors)), float(errors.max())) if len(errors) else (np.nan, np.nan)
-    within = median <= limits.median_mm and worst <= limits.worst_mm
+    accurate = median <= limits.median_mm and worst <= limits.worst_mm
+    sound = not (result.lost or result.falsely_read or result.other_status)
     return {
         "set": benchmark.name,
         "seed": benchmark.seed,
         "read": f"{result.read}/{result.photos}",
         "lost": result.lost,
         "false": result.falsely_read,
+        "status": result.other_status,
+        "readings": len(errors),
         "median mm": round(median, 4),
         "worst mm": round(worst, 4),
-        "within": "yes" if within and not result.lost and not result.falsely_read else "no",
+        "within": "yes" if accurate and sound else "no",
         "corners": int(np.mean([corners.number for corners in result.corners])),
         "corner rms px": round(result.corner_rms_px, 3),
         "wrong": sum(corners.wrong for corners in result.corners),

@@ -11,6 +11,7 @@ from .element_geometry import element_geometry
 from .elements import FloatArray
 from .materials.library import find_material
 from .materials.material_files import Material
+from .materials.stability import stability_margin
 from .simulation import Simulation
 
 _SMALLEST_TURN_MM = 0.5
@@ -61,6 +62,9 @@ class DesignOutputs:
         At the highest pressure reached; the ratio is to the undeformed volume.
     stretch : tuple of StretchUse
         One for each material.
+    composite_unstable_from_kPa : float or None
+        Lowest pressure at which a homogeneous composite is deformed, at any Gauss point, to where its law is
+        unstable in Drucker's sense; None where it is not, or the composite is matrix and paper.
     """
 
     mode_change_kPa: float | None
@@ -69,6 +73,7 @@ class DesignOutputs:
     enclosed_volume_mm3: float
     volume_ratio: float
     stretch: tuple[StretchUse, ...]
+    composite_unstable_from_kPa: float | None = None
 
 
 def design_outputs(simulation: Simulation) -> DesignOutputs:
@@ -93,6 +98,7 @@ def design_outputs(simulation: Simulation) -> DesignOutputs:
         enclosed_volume_mm3=volume,
         volume_ratio=volume / simulation.geometry.gas_volume_mm3(),
         stretch=_stretch_uses(simulation, reached),
+        composite_unstable_from_kPa=_unstable_from(simulation, reached),
     )
 
 
@@ -142,6 +148,21 @@ def _stretch_uses(simulation: Simulation, reached: np.ndarray) -> tuple[StretchU
     return tuple(
         _use(by_name[name], extremes[:, :, material == name], pressures) for name in dict.fromkeys(material)
     )
+
+
+def _unstable_from(simulation: Simulation, reached: np.ndarray) -> float | None:
+    composite, mesh = simulation.settings.composite, simulation.mesh
+    if composite is None:
+        return None
+    geometry = element_geometry(mesh)
+    filled = mesh.region == mesh.region_names.index("composite")
+    for row in reached:
+        state = deform(simulation.displacement_mm[row], mesh.elements, geometry)
+        log_stretch = state.log_stretch[filled].reshape(-1, 3)
+        isochoric = log_stretch - log_stretch.mean(axis=1, keepdims=True)
+        if not np.all(stability_margin(composite.law, isochoric) > 0.0):
+            return float(simulation.tip_path.pressure_kPa[row])
+    return None
 
 
 def _use(material: Material, extremes: FloatArray, pressure_kPa: FloatArray) -> StretchUse:

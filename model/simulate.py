@@ -89,9 +89,16 @@ def simulate(
         centre_line_mm=centre_line(problem.mesh, geometry, journal.displacement_mm),
         steps=tuple(journal.steps),
         stopped_at_kPa=stop.pressure_kPa if stop else None,
-        stop_reason=stop.reason if stop else "",
+        stop_reason=_stop_reason(stop, settings),
         solver_name=solver.name,
     )
+
+
+def _stop_reason(stop: RampStoppedError | None, settings: SimulationSettings) -> str:
+    if stop is None:
+        return ""
+    doubt = "; the composite is one law here, which may have lost its stability"
+    return stop.reason + (doubt if settings.composite is not None else "")
 
 
 def _ramp(

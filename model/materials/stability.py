@@ -71,7 +71,12 @@ def drucker_margin(law: IsotropicLaw, stretch: FloatArray, mode: Mode) -> FloatA
     check that finite-element programs print); 2 at rest; NaN beyond locking. Rounding of the larger
     eigenvalue is forgiven.
     """
-    _, second = law.derivatives(mode.log_stretch(stretch))
+    return stability_margin(law, mode.log_stretch(stretch))
+
+
+def stability_margin(law: IsotropicLaw, log_stretch: FloatArray) -> FloatArray:
+    """Return `drucker_margin` at any isochoric log stretches, (n, 3) to (n,)."""
+    _, second = law.derivatives(log_stretch)
     moduli = incremental_moduli(second)
     mean = 0.5 * (moduli[:, 0, 0] + moduli[:, 1, 1])
     radius = np.hypot(0.5 * (moduli[:, 0, 0] - moduli[:, 1, 1]), moduli[:, 0, 1])

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 
+from spavision.cli.design import stretch_warnings
 from spavision.model.animation import write_ramp_gif
 from spavision.model.geometry import ActuatorGeometry
+from spavision.model.materials.material_files import Material
+from spavision.model.materials.ogden import Ogden
 from spavision.model.outputs import StretchUse, design_outputs, mode_change
 from spavision.model.simulate import Simulation, SimulationSettings, simulate
 
@@ -48,6 +52,20 @@ def test_outputs_of_a_ramp(ramp: Simulation) -> None:
     assert body.smallest_stretch < 1.0 < body.largest_stretch
     assert body.pressure_kPa == 20.0
     assert body.calibrated == pytest.approx((0.7, 3.0))  # fitted to strains of −0.3 to 2.0, says its file
+
+
+@pytest.mark.parametrize(
+    ("mu_MPa", "alpha", "is_stable"), [((0.02,), (2.0,), True), ((0.1, -0.02), (2.0, 8.0), False)]
+)
+def test_an_unstable_composite_is_told(
+    ramp: Simulation, mu_MPa: tuple[float, ...], alpha: tuple[float, ...], is_stable: bool
+) -> None:
+    """Σ μα λ^α falls below zero from a stretch of 1.04 on: 0.2·λ² − 0.16·λ⁸."""
+    composite = Material("one law", Ogden(mu_MPa, alpha), 1.07, "assumed")
+    changed = replace(ramp, settings=replace(ramp.settings, composite=composite))
+    outputs = design_outputs(changed)
+    assert (outputs.composite_unstable_from_kPa is None) == is_stable
+    assert any("unstable from" in sentence for sentence in stretch_warnings(outputs)) != is_stable
 
 
 @pytest.mark.parametrize(

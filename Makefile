@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 
-.PHONY: demo test lint types format bench bench-fe wheel-check report-check clean clean-kernels
+.PHONY: demo test lint types format bench bench-fe wheel-check report-check docs clean clean-kernels
 
 demo: $(READY)
 	$(BIN)/spavision correlate --crimp 0.2 --output results/demo --force
@@ -33,6 +33,11 @@ wheel-check: $(READY)
 report-check: $(READY)
 	$(BIN)/python -m pip install --disable-pip-version-check --quiet --constraint constraints.txt --editable ".[fast,test,browser]"
 	$(BIN)/python -m pytest tests/correlate/test_report_in_browser.py
+
+# mkdocs reads the packages from where `types` shows them.
+docs: types
+	$(BIN)/python -m pip install --disable-pip-version-check --quiet --constraint constraints.txt --editable ".[fast,test,docs]"
+	$(BIN)/mkdocs build --strict
 
 bench: $(READY)
 	$(BIN)/python benchmarks/run_all.py

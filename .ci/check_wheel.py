@@ -13,7 +13,7 @@ ALLOWED_TOP_LEVEL = {"spavision"}
 
 USE = """
 import spavision.correlate.report, spavision.model.fitting, spavision.model.simulate, spavision.vision.track
-from spavision.cli.samples import nearest_sample_set
+from spavision.samples import nearest_sample_set
 from spavision.model.materials.library import find_material
 find_material("Mold Star 15")
 assert nearest_sample_set(0.2)[1] == 0.2

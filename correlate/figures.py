@@ -26,22 +26,18 @@ def path_figure(discrepancy: Discrepancy, *, title: str) -> Figure:
 
     The y axis points down, as in the photographs.
     """
-    figure = Figure(figsize=(7.5, 6.0), layout="constrained")
-    axes = figure.add_subplot()
-    sides = (
-        ("measured", discrepancy.measured, MEASURED_COLOUR, "o", (6, 5)),
-        ("modelled", discrepancy.modelled, MODELLED_COLOUR, "s", (6, -11)),
-    )
-    for label, path, colour, marker, offset in sides:
-        readings = path.readings()
-        axes.plot(readings.ux_mm, readings.uy_mm, marker=marker, color=colour, label=label, markersize=4.5)
-        _write_pressures(axes, readings, colour, offset)
-    axes.set_xlabel("x displacement of the tip, mm (positive: first bending direction)")
-    axes.set_ylabel("y displacement of the tip, mm (positive: down)")
+    figure, axes = _path_axes()
+    _draw_path(axes, "measured", discrepancy.measured, MEASURED_COLOUR, "o", (6, 5))
+    _draw_path(axes, "modelled", discrepancy.modelled, MODELLED_COLOUR, "s", (6, -11))
     axes.set_title(title)
-    axes.invert_yaxis()
-    axes.set_aspect("equal", adjustable="datalim")
-    axes.grid(alpha=0.3)
+    axes.legend()
+    return figure
+
+
+def single_path_figure(path: TipPath, *, label: str) -> Figure:
+    """Draw one tip path in the x-y plane, the pressure in kPa beside each point; the y axis points down."""
+    figure, axes = _path_axes()
+    _draw_path(axes, label, path, MEASURED_COLOUR, "o", (6, 5))
     axes.legend()
     return figure
 
@@ -82,6 +78,25 @@ def pressure_figure(discrepancy: Discrepancy, *, title: str) -> Figure:
     lower.set_xlabel("pressure, kPa")
     lower.invert_yaxis()
     return figure
+
+
+def _path_axes() -> tuple[Figure, Axes]:
+    figure = Figure(figsize=(7.5, 6.0), layout="constrained")
+    axes = figure.add_subplot()
+    axes.set_xlabel("x displacement of the tip, mm (positive: first bending direction)")
+    axes.set_ylabel("y displacement of the tip, mm (positive: down)")
+    axes.invert_yaxis()
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.grid(alpha=0.3)
+    return figure, axes
+
+
+def _draw_path(
+    axes: Axes, label: str, path: TipPath, colour: str, marker: str, offset: tuple[int, int]
+) -> None:
+    readings = path.readings()
+    axes.plot(readings.ux_mm, readings.uy_mm, marker=marker, color=colour, label=label, markersize=4.5)
+    _write_pressures(axes, readings, colour, offset)
 
 
 def _write_pressures(axes: Axes, path: TipPath, colour: str, offset: tuple[int, int]) -> None:

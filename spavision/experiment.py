@@ -209,13 +209,15 @@ class Experiment(Section):
     composite: CompositeSection = CompositeSection()
     model: ModelSection = ModelSection()
 
-    def with_options(self, options: dict[str, dict[str, Any]]) -> Experiment:
-        """Return the experiment with command-line options laid over it.
+    def with_options(self, options: dict[str, dict[str, Any]], *, source: str = "command line") -> Experiment:
+        """Return the experiment with options laid over it.
 
         Parameters
         ----------
         options : dict
             Section name to a dict of keys; a value of None means that the option was not given.
+        source : str
+            Where the options come from, for messages.
 
         Raises
         ------
@@ -224,8 +226,9 @@ class Experiment(Section):
         """
         merged = self.model_dump()
         for section, given in options.items():
-            merged[section] |= {key: value for key, value in given.items() if value is not None}
-        return checked(Experiment, merged, source="command line")
+            keys = {key: value for key, value in given.items() if value is not None}
+            merged[section] = merged.get(section, {}) | keys
+        return checked(Experiment, merged, source=source)
 
 
 def read_experiment(path: Path) -> Experiment:

@@ -111,6 +111,12 @@ class ResultsFolder:
         self._inputs |= digests
         return list(digests.values())
 
+    def take_over(self, other: ResultsFolder) -> None:
+        """Take in the inputs that another folder has recorded, and copies of the files written there."""
+        self._inputs |= other._inputs
+        for name in other._written:
+            self.write_bytes(name, (other.path / name).read_bytes())
+
     def write_record(self, record: Mapping[str, Any]) -> Path:
         """Write ``run.json``: the given record, inputs, package versions and the list of files written."""
         content = {

@@ -43,7 +43,7 @@ def simulate(pressures_kpa: str, write_deck: Path | None, model: str, **given: A
     animation of the ramp.
     """
     from spavision.results import ResultsFolder
-    from spavision.workflow.model_run import run_model, simulation_record, write_model_deck, write_simulation
+    from spavision.workflow.model_run import run_model, save_simulation, write_model_deck
 
     from . import output
     from .options import experiment_for, parse_pressures
@@ -59,15 +59,7 @@ def simulate(pressures_kpa: str, write_deck: Path | None, model: str, **given: A
         _simulate_reduced(experiment, pressures, results, given)
         return
     simulation = run_model(experiment, pressures, quiet=given["quiet"])
-    write_simulation(results, simulation)
-    results.write_record(
-        {
-            "command": "simulate",
-            "experiment": experiment.model_dump(),
-            "pressures_kPa": pressures.tolist(),
-            "simulation": simulation_record(simulation),
-        }
-    )
+    save_simulation(results, simulation, experiment)
     _report(simulation, results.path, as_json=given["as_json"], quiet=given["quiet"])
 
 

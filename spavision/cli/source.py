@@ -10,7 +10,7 @@ from spavision.experiment import Experiment
 from spavision.workflow.measured_side import Source
 
 from .options import MODEL_OPTIONS, PHOTO_OPTIONS, experiment_file, experiment_for
-from .samples import nearest_sample_set
+from spavision.samples import nearest_sample_set
 
 
 def choose_source(

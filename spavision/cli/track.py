@@ -36,7 +36,7 @@ def track(photos: Path, **given: Any) -> None:
     x_px and y_px of the marker or yes under reject, and a note.
     """
     from spavision.results import ResultsFolder
-    from spavision.workflow.measure import measure, write_measurement
+    from spavision.workflow.measure import measure, save_measurement
 
     from . import output
     from .options import experiment_file, experiment_for
@@ -47,10 +47,7 @@ def track(photos: Path, **given: Any) -> None:
     experiment_path = experiment_file(photos, given["experiment"])
     results.record_inputs([] if experiment_path is None else [experiment_path])
     measurement = measure(photos, experiment, results=results, quiet=given["quiet"])
-    write_measurement(results, measurement)
-    results.write_record(
-        {"command": "track", "experiment": experiment.model_dump(), "track": measurement.record()}
-    )
+    save_measurement(results, measurement, experiment)
     _report(measurement, results.path, as_json=given["as_json"], quiet=given["quiet"])
     if given["strict"]:
         _refuse_unless_all_ok(measurement)

@@ -70,10 +70,6 @@ def compare_with_model(side: MeasuredSide, *, quiet: bool) -> Comparison:
     InputError
         If the measured pressures lie outside the model's range, or the model cannot be set up.
     """
-    from spavision.correlate.discrepancy import compare, in_bending_axes
-    from spavision.correlate.summary import summarise
-    from spavision.correlate.validation import ModelUncertainty
-    from spavision.model.mesh_error import numerical_uncertainty_mm
     from spavision.model.simulate import LARGEST_PRESSURE_KPA
 
     highest = float(side.path.pressure_kPa.max())
@@ -82,18 +78,32 @@ def compare_with_model(side: MeasuredSide, *, quiet: bool) -> Comparison:
             f"{side.source.place}: the pressure {highest:g} kPa lies outside the model's range of 0 to "
             f"{LARGEST_PRESSURE_KPA:g} kPa; correct it, or name its unit with --pressure-unit"
         )
-    experiment = side.source.experiment
-    simulation = run_model(experiment, side.model_pressure_kPa, quiet=quiet)
-    measured = in_bending_axes(side.path, first_bend=experiment.actuator.first_bend)
-    discrepancy = compare(measured, simulation.tip_path)
+    return compare_sides(side, run_model(side.source.experiment, side.model_pressure_kPa, quiet=quiet))
+
+
+def compare_sides(side: MeasuredSide, simulation: Simulation) -> Comparison:
+    """Compare a measured path with a simulation at the pressures that both have.
+
+    Raises
+    ------
+    InputError
+        If there is no such pressure.
+    """
+    from spavision.correlate.discrepancy import compare, in_bending_axes
+    from spavision.correlate.summary import summarise
+    from spavision.correlate.validation import ModelUncertainty
+    from spavision.model.mesh_error import numerical_uncertainty_mm
+
+    first_bend = side.source.experiment.actuator.first_bend
+    discrepancy = compare(in_bending_axes(side.path, first_bend=first_bend), simulation.tip_path)
     modelled = discrepancy.modelled
-    mesh_mm = numerical_uncertainty_mm(experiment.model.mesh, modelled.ux_mm, modelled.uy_mm)
+    mesh_mm = numerical_uncertainty_mm(simulation.settings.mesh_level, modelled.ux_mm, modelled.uy_mm)
     known = ModelUncertainty(mesh_x_mm=mesh_mm, mesh_y_mm=mesh_mm)
     return Comparison(
         side,
         simulation,
         summarise(discrepancy, known),
-        compare_shapes(side.measurement, simulation, first_bend=experiment.actuator.first_bend),
+        compare_shapes(side.measurement, simulation, first_bend=first_bend),
     )
 
 

@@ -146,6 +146,14 @@ def write_measurement(
     return Picture(sheet, "image/jpeg", "The photos in order of pressure, the tip marked.")
 
 
+def save_measurement(results: ResultsFolder, measurement: Measurement, experiment: Experiment) -> None:
+    """Write everything that ``spavision track`` writes, the record last."""
+    write_measurement(results, measurement)
+    results.write_record(
+        {"command": "track", "experiment": experiment.model_dump(), "track": measurement.record()}
+    )
+
+
 def _largest(sigma_mm: FloatArray) -> float:
     finite = sigma_mm[np.isfinite(sigma_mm)]
     return float(finite.max()) if len(finite) else float("nan")

@@ -108,6 +108,19 @@ def write_simulation(results: ResultsFolder, simulation: Simulation) -> None:
     results.adopt(fields)
 
 
+def save_simulation(results: ResultsFolder, simulation: Simulation, experiment: Experiment) -> None:
+    """Write everything that ``spavision simulate`` writes, the record last."""
+    write_simulation(results, simulation)
+    results.write_record(
+        {
+            "command": "simulate",
+            "experiment": experiment.model_dump(),
+            "pressures_kPa": simulation.tip_path.pressure_kPa.tolist(),
+            "simulation": simulation_record(simulation),
+        }
+    )
+
+
 def simulation_record(simulation: Simulation) -> dict[str, Any]:
     """Return what ``run.json`` keeps of the simulation."""
     from spavision.model.outputs import design_outputs

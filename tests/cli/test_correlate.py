@@ -131,7 +131,7 @@ def test_a_crimp_ratio_without_sample_photos_takes_the_nearest_and_says_so():
 
 def test_sample_sets_pass_through_the_published_values():
     """The article: 71.25 mm at 40 kPa for 0.3; 17.5 mm, then 65 mm the other way for 0.2."""
-    from spavision.cli.samples import nearest_sample_set
+    from spavision.samples import nearest_sample_set
 
     def displacement(ratio):
         truth = json.loads((nearest_sample_set(ratio)[0] / "truth.json").read_text())

@@ -14,10 +14,11 @@ from .displacement import Place
 from .scale import EXIF_SIGMA, CameraFit
 from .settings import TrackSettings
 
-RADIUS_SIGMA = 0.015
-"""Relative uncertainty of the known radius that a partly hidden rim is fitted with."""
+RADIUS_SIGMA = 0.03
+"""Relative uncertainty of the radius that a partly hidden rim is fitted with: beside a cover, half contrast lies
+elsewhere than on the whole rims that the radius is taken from."""
 
-RIM_FLOOR_PX = 0.02
+RIM_FLOOR_PX = 0.01
 """Systematic part of a rim's centre: shading, pixel grid, compression."""
 
 BUDGET_NAMES = (

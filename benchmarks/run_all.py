@@ -13,9 +13,9 @@ FOLDER = Path(__file__).resolve().parent
 
 
 def benchmarks() -> list[Path]:
-    """Return the scripts in this folder and the folders' own, in order of name."""
+    """Return the scripts in this folder and the folders' own (``run*.py``), in order of name."""
     scripts = [path for path in sorted(FOLDER.glob("*.py")) if path != Path(__file__).resolve()]
-    return scripts + sorted(FOLDER.glob("*/run.py"))
+    return scripts + sorted(FOLDER.glob("*/run*.py"))
 
 
 def main(wanted: list[str]) -> int:

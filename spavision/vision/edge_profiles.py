@@ -20,11 +20,11 @@ CLEAN_RUN_SQUARES = 0.8
 EDGE_REACH_SQUARES = 0.4
 """How far from where it is expected the edge is looked for in the colours."""
 
-EDGE_BEYOND_SQUARES = 0.3
-EDGE_BLUR_SQUARES = 0.1
-INSIDE_FROM_SQUARES = (0.2, 0.45)
-SHADE_FROM_SQUARES = (0.3, 1.3)
-"""Where the colour of the body and the shade on the board are taken, inwards and outwards from the edge."""
+EDGE_BEYOND_BLURS = 3.0
+INSIDE_FROM_BLURS, INSIDE_SQUARES = 2.0, 0.25
+SHADE_FROM_BLURS, SHADE_SQUARES = 3.0, 1.0
+"""Where the colour of the body and the shade on the board are taken, inwards and outwards from the edge:
+beyond its blur, and over such a stretch."""
 
 SMOOTHED_LINES = 7
 CLEAR_CONTRAST = 80.0
@@ -32,7 +32,7 @@ CLEAR_CONTRAST = 80.0
 
 LARGEST_CONTRAST = 160.0
 
-BLUR_SQUARES = 0.15
+SLACK_BLURS = 1.5
 """How far blur may carry the look of the body or of the board across the edge."""
 
 
@@ -70,6 +70,8 @@ class Profiles:
         Colours as seen, and those of the bare board.
     search_mm : float
         Where edges are looked for.
+    blur_squares : float
+        Blur of the picture, one standard deviation.
     """
 
     offsets_mm: FloatArray
@@ -78,6 +80,7 @@ class Profiles:
     colours: FloatImage
     expected: FloatImage
     search_mm: float
+    blur_squares: float
 
     def ends(self, tells: tuple[bool, bool]) -> Ends:
         """Find between which offsets the body ends, and where its edge is seen.
@@ -91,7 +94,7 @@ class Profiles:
             Whether the body is strange over dark and over bright squares.
         """
         clean = round(CLEAN_RUN_SQUARES / STEP_SQUARES)
-        slack = BLUR_SQUARES / STEP_SQUARES * (self.offsets_mm[1] - self.offsets_mm[0])
+        slack = SLACK_BLURS * self.blur_squares / STEP_SQUARES * (self.offsets_mm[1] - self.offsets_mm[0])
         run = np.cumsum(self.strange, axis=1)
         last_of_body = self.strange[:, :-clean] & (run[:, clean:] == run[:, :-clean])
         last_of_body &= np.abs(self.offsets_mm[:-clean]) <= self.search_mm
@@ -113,7 +116,8 @@ class Profiles:
         as it is farther out. Where these two are alike, the point has nothing to say.
         """
         step = self.offsets_mm[1] - self.offsets_mm[0]
-        reach, beyond = round(EDGE_REACH_SQUARES / STEP_SQUARES), round(EDGE_BEYOND_SQUARES / STEP_SQUARES)
+        blur = self.blur_squares / STEP_SQUARES
+        reach, beyond = round(EDGE_REACH_SQUARES / STEP_SQUARES), round(EDGE_BEYOND_BLURS * blur)
         centre = np.rint((np.nan_to_num(near_mm) - self.offsets_mm[0]) / step).astype(np.intp)
         centre = np.clip(centre, reach + beyond, len(self.offsets_mm) - 1 - reach - beyond)
         row = np.arange(len(centre))[:, None]
@@ -125,7 +129,6 @@ class Profiles:
         share = np.einsum("ijk,ijk->ij", self.colours[row, window] - bare, contrast) / np.maximum(size, 1.0)
         size = np.minimum(size, LARGEST_CONTRAST**2)
         candidates = np.arange(-reach, reach + 1)
-        blur = EDGE_BLUR_SQUARES / STEP_SQUARES
         model = ndtr((candidates[:, None] - place[None, :]) / blur)
         share = np.clip(share, -0.5, 1.5)
         cost = size @ (model**2).T - 2.0 * (size * share) @ model.T
@@ -142,7 +145,7 @@ class Profiles:
 
     def _shade(self, row: IntArray, centre: IntArray) -> FloatArray:
         """Brightness of the board just outside against what is expected, shape (lines, 1, 1)."""
-        first, last = (round(share / STEP_SQUARES) for share in SHADE_FROM_SQUARES)
+        first, last = self._stretch(SHADE_FROM_BLURS, SHADE_SQUARES)
         window = np.minimum(centre[:, None] + np.arange(first, last), len(self.offsets_mm) - 1)
         seen, bare = self.colours[row, window], self.expected[row, window]
         shade = np.einsum("ijk,ijk->i", seen, bare) / np.maximum(np.einsum("ijk,ijk->i", bare, bare), 1.0)
@@ -150,6 +153,11 @@ class Profiles:
 
     def _inside(self, row: IntArray, centre: IntArray) -> FloatArray:
         """Colour of the body just inside its edge, shape (lines, 1, 3)."""
-        first, last = (round(share / STEP_SQUARES) for share in INSIDE_FROM_SQUARES)
+        first, last = self._stretch(INSIDE_FROM_BLURS, INSIDE_SQUARES)
         window = np.maximum(centre[:, None] - np.arange(first, last), 0)
         return np.asarray(median_filter(self.colours[row, window].mean(axis=1), (SMOOTHED_LINES, 1))[:, None])
+
+    def _stretch(self, from_blurs: float, squares: float) -> tuple[int, int]:
+        """Return the first and last point of a stretch beyond the edge's blur."""
+        first = from_blurs * self.blur_squares / STEP_SQUARES
+        return round(first), round(first + squares / STEP_SQUARES)

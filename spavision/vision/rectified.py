@@ -8,6 +8,7 @@ from typing import Any, cast
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import ndtri
 
 from .arrays import BoolArray, FloatArray, FloatImage, IntArray, RgbImage, blur, sample, shrink, shrunk_place
 from .camera import Camera, Pose, project
@@ -27,6 +28,9 @@ LARGEST_STRANGENESS = 9.0
 
 SHADE_RANGE = (0.3, 1.15)
 """Brightness against the neighbourhood that a shadow, or its end, may give the board."""
+
+BLUR_RANGE = (0.05, 0.3)
+"""Blur, in squares, that is believed: less cannot be told, with more there are no corners."""
 
 LEVEL_REACH_SQUARES = 2.5
 LEVEL_WIDE_REACH_SQUARES = 12.0
@@ -137,10 +141,13 @@ class BareBoard:
         Colours of the bare board, without shadows that no bare square near by shows.
     strangeness : float32 array, shape (rows × pixels, columns × pixels)
         Mean squared deviation in variances, 0 to `LARGEST_STRANGENESS`; NaN outside the photograph.
+    blur_squares : float
+        Blur of the squares' borders, one standard deviation.
     """
 
     expected: FloatImage
     strangeness: FloatImage
+    blur_squares: float
 
 
 def imagine_bare(board: RectifiedBoard) -> BareBoard | None:
@@ -160,15 +167,18 @@ def imagine_bare(board: RectifiedBoard) -> BareBoard | None:
     light, dark = _levels(core, board.seen & bright), _levels(core, board.seen & ~bright)
     imagined = np.empty_like(cells)
     strange = np.empty((rows, n, columns, n), np.float32)
+    blurs = []
     for parity in (True, False):
         chosen = bright == parity
         pattern, sigma = _learn(cells, light, dark, chosen & board.seen)
+        blurs.append(_blur_squares(pattern if parity else 1.0 - pattern))
         row, column = np.nonzero(chosen)
         expected = _expected(light[row, column], dark[row, column], pattern)
         imagined[row, :, column] = expected
         strange[row, :, column] = _deviation(cells[row, :, column], expected, sigma)
     strange[np.broadcast_to(~board.known[:, None, :, None], strange.shape)] = np.nan
-    return BareBoard(imagined.reshape(rows * n, columns * n, 3), strange.reshape(rows * n, columns * n))
+    pictures = imagined.reshape(rows * n, columns * n, 3), strange.reshape(rows * n, columns * n)
+    return BareBoard(*pictures, float(np.mean(blurs)))
 
 
 def _hidden_part(seen: BoolArray, square: IntArray) -> tuple[slice, slice] | None:
@@ -228,6 +238,17 @@ def _learn(
     residual = values - _expected(high, low, pattern)
     sigma = 1.4826 * np.median(np.abs(residual), axis=0)
     return pattern.astype(np.float32), np.maximum(sigma, SMALLEST_SIGMA).astype(np.float32)
+
+
+def _blur_squares(pattern: FloatImage) -> float:
+    """Return the blur of a square's borders from its pattern, shape (n, n), 1 inside and 0 beyond."""
+    n = PIXELS_A_SQUARE
+    inside = slice(n // 4, n - n // 4)
+    across = 0.5 * (pattern[inside].mean(axis=0) + pattern[:, inside].mean(axis=1))
+    across = 0.5 * (across + across[::-1])
+    # Two pixels from the border: a share Φ(distance / blur) of the step.
+    share = np.clip(across[1] / max(float(across[n // 2]), 0.1), 0.6, 0.999)
+    return float(np.clip(1.5 / n / ndtri(share), *BLUR_RANGE))
 
 
 def _expected(light: FloatImage, dark: FloatImage, pattern: FloatImage) -> FloatImage:

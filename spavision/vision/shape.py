@@ -47,6 +47,9 @@ class ActuatorShape:
         Change of the heading, rad a millimetre.
     width_mm : array, shape (POINTS,)
         Distance between the edges, smoothed.
+    sigma_across_mm, sigma_heading_deg : array, shape (POINTS,)
+        Standard uncertainty of the line's place across itself and of its heading, as the edges tell them;
+        that of stand-off and scale, which stretch the whole line, comes on top.
     scatter_mm : float
         Median distance of the edge points from the smooth edges: noise, and swelling between the walls.
     """
@@ -56,6 +59,8 @@ class ActuatorShape:
     heading_deg: FloatArray
     curvature_per_mm: FloatArray
     width_mm: FloatArray
+    sigma_across_mm: FloatArray
+    sigma_heading_deg: FloatArray
     scatter_mm: float
 
     @property
@@ -67,6 +72,11 @@ class ActuatorShape:
     def tip_angle_deg(self) -> float:
         """Bend angle at the tip, positive to the right."""
         return float(self.heading_deg[-1])
+
+    @property
+    def sigma_tip_angle_deg(self) -> float:
+        """Standard uncertainty of the bend angle at the tip."""
+        return float(self.sigma_heading_deg[-1])
 
 
 @dataclass(frozen=True)
@@ -174,6 +184,8 @@ def _checked(silhouette: Silhouette, marker_mm: FloatArray, square_mm: float) ->
         np.degrees(line.heading_rad[pick]),
         line.curvature_per_mm[pick],
         2.0 * half[pick],
+        silhouette.sigma_across_mm[pick],
+        np.degrees(silhouette.sigma_heading_rad[pick]),
         scatter,
     )
 

@@ -32,6 +32,9 @@ SHAPE_COLUMNS = [
     "curvature_per_mm",
     "width_mm",
     "tip_angle_deg",
+    "sigma_across_mm",
+    "sigma_heading_deg",
+    "sigma_tip_angle_deg",
 ]
 
 
@@ -82,6 +85,9 @@ def shape_table(readings: Sequence[ShapeReading], track: Track) -> pd.DataFrame:
             "curvature_per_mm": shape.curvature_per_mm,
             "width_mm": shape.width_mm,
             "tip_angle_deg": shape.tip_angle_deg,
+            "sigma_across_mm": shape.sigma_across_mm,
+            "sigma_heading_deg": shape.sigma_heading_deg,
+            "sigma_tip_angle_deg": shape.sigma_tip_angle_deg,
         }
         parts.append(pd.DataFrame(columns))
     return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=SHAPE_COLUMNS)

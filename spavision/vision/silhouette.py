@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .arrays import BoolArray, FloatArray, sample
-from .centre_line import STATIONS, CentreLine, Edge, fit_edges, line_through
+from .centre_line import CentreLine, line_through
+from .edge_fit import Edge, fit_edges
 from .edge_profiles import CLEAN_RUN_SQUARES, STEP_SQUARES, Profiles
 from .limb import STRANGE, Limb, UnclearError
 from .rectified import PIXELS_A_SQUARE, BareBoard, RectifiedBoard
@@ -19,11 +20,20 @@ SEARCH_SQUARES = (3.0, 1.2, 0.8, 0.8)
 SHOWS_BODY = 0.5
 """Share of body pixels over bright (or dark) squares that must be strange for such squares to tell."""
 
+WIDEST_EDGE_BLUR_SQUARES = 0.1
+EDGE_SHIFT_BLURS = 0.4
+"""Blur mixes light, not the levels of the file: an edge seems to lie up to half a blur nearer its dark side,
+by how much depends on both colours. So a wider edge is not fitted as such, and the line is as uncertain."""
+
 BOUND_WEIGHT = 0.05
 """Say of a broken bound against that of a seen edge."""
 
 FEWEST_EDGE_POINTS = 60
 """Edge points, of both sides together, that a fit needs."""
+
+BEYOND_SQUARES = (0.2, 0.7)
+LEAST_PATTERN = 0.8
+"""Stretch beyond an edge in which the board's pattern must show, and share of its contrast that must."""
 
 END_MARGIN_MM = 2.0
 """Stretch at either end that is left out of the fit: rounded corners, the clamp's shadow."""
@@ -42,10 +52,14 @@ class Silhouette:
         From the clamp to the tip.
     residuals_mm : array, shape (2, STATIONS)
         Distance of the left and right edge points from the smooth edges; NaN without an edge point.
+    sigma_across_mm, sigma_heading_rad : array, shape (STATIONS,)
+        Standard uncertainty of the line's place across itself, and of its heading, as the edges tell them.
     """
 
     line: CentreLine
     residuals_mm: FloatArray
+    sigma_across_mm: FloatArray
+    sigma_heading_rad: FloatArray
 
 
 def find_silhouette(board: RectifiedBoard, bare: BareBoard, limb: Limb, sight: Sight) -> Silhouette:
@@ -59,16 +73,23 @@ def find_silhouette(board: RectifiedBoard, bare: BareBoard, limb: Limb, sight: S
     view = _View(board, bare, sight)
     rough = sight.to_face(board.to_mm(limb.centres))
     line = line_through(rough, limb.half_width * board.pixel_mm)
-    residuals = np.full((2, STATIONS), np.nan)
     for search in SEARCH_SQUARES:
         sides = [view.edge(line, sign, search * board.square_mm) for sign in (-1.0, 1.0)]
         if sum(np.count_nonzero(np.isfinite(side.distance_mm)) for side in sides) < FEWEST_EDGE_POINTS:
             raise UnclearError("too little of the actuator's edges is seen")
-        line, residuals = fit_edges(line, sides[0], sides[1])
-        tip = view.tip(line, search * board.square_mm)
-        line = line.trimmed(0.0, line.length_mm + tip)
-    line = line.trimmed(view.clamp(line), line.length_mm)
-    return Silhouette(line, residuals)
+        fit = fit_edges(line, sides[0], sides[1])
+        tip = view.tip(fit.line, search * board.square_mm)
+        line = fit.line.trimmed(0.0, fit.line.length_mm + tip)
+    if min(view.pattern_beyond(line, sign) for sign in (-1.0, 1.0)) < LEAST_PATTERN:
+        raise UnclearError("what lies beyond the edge found is not the bare board")
+    start_mm = view.clamp(line)
+    line = line.trimmed(start_mm, line.length_mm)
+    across, heading = (
+        np.interp(line.arc_mm + start_mm, fit.line.arc_mm, sigma)
+        for sigma in (fit.sigma_across_mm, fit.sigma_heading_rad)
+    )
+    shift_mm = EDGE_SHIFT_BLURS * bare.blur_squares * board.square_mm
+    return Silhouette(line, fit.residuals_mm, np.hypot(across, shift_mm), heading)
 
 
 @dataclass(frozen=True)
@@ -92,6 +113,27 @@ class _View:
         offsets = np.where(seen, ends.edge, broken)
         distance = np.where(usable, line.half_width_mm + offsets, np.nan)
         return Edge(distance, np.where(seen, ends.weight, BOUND_WEIGHT))
+
+    def pattern_beyond(self, line: CentreLine, sign: float) -> float:
+        """Return how much of the board's contrast shows just beyond an edge: about 1 on bare board.
+
+        A grey layer may pass for board in shadow over bright squares and for lit board over dark ones.
+        """
+        step = STEP_SQUARES * self.board.square_mm
+        offsets = step * np.arange(*(round(share / STEP_SQUARES) for share in BEYOND_SQUARES))
+        outward = sign * line.rightward
+        edge = line.points_mm + outward * line.half_width_mm[:, None]
+        points = edge[:, None] + offsets[None, :, None] * outward[:, None]
+        pixels = self.board.to_pixels(
+            self.sight.seen_at(points, np.broadcast_to(outward[:, None], points.shape))
+        )
+        seen, bare = (
+            sample(picture, pixels).sum(axis=-1) for picture in (self.board.rgb, self.bare.expected)
+        )
+        seen, bare = seen / np.nanmean(seen), bare / np.nanmean(bare)
+        known = np.isfinite(seen) & np.isfinite(bare)
+        contrast = bare[known] - 1.0
+        return float((seen[known] - 1.0) @ contrast / max(float(contrast @ contrast), 1e-9))
 
     def tip(self, line: CentreLine, search_mm: float) -> float:
         """How far the tip lies beyond the line's end, mm."""
@@ -140,6 +182,7 @@ class _View:
             sample(self.board.rgb, pixels),
             sample(self.bare.expected, pixels),
             search_mm,
+            min(self.bare.blur_squares, WIDEST_EDGE_BLUR_SQUARES),
         )
 
     def _telling_squares(self, line: CentreLine, sign: float) -> tuple[bool, bool]:

@@ -1,4 +1,4 @@
-"""The centre line's fit against circles, and which edge of a thick body a camera sees, against geometry."""
+"""The centre line against circles, and which edge of a thick body a camera sees, against geometry."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from spavision.vision.camera import Pose
-from spavision.vision.centre_line import STATIONS, CentreLine, Edge, fit_edges, line_through
+from spavision.vision.centre_line import CentreLine, line_through
 from spavision.vision.sight import line_of_sight
 
 RADIUS_MM = 120.0
@@ -24,41 +24,10 @@ def _distances_to_circle(line: CentreLine) -> np.ndarray:
     return np.linalg.norm(line.points_mm - centre, axis=1) - RADIUS_MM
 
 
-def _edges_of_circle(line: CentreLine, half_width_mm: float) -> tuple[Edge, Edge]:
-    """Cross the line's normals with the two circles that are the arc's edges."""
-    to_centre = np.array([3.0 + RADIUS_MM, 5.0]) - line.points_mm
-    along = (to_centre * line.rightward).sum(axis=1)
-    off = (to_centre**2).sum(axis=1) - along**2
-    distances = [along - np.sqrt((RADIUS_MM + side * half_width_mm) ** 2 - off) for side in (1.0, -1.0)]
-    weight = np.ones(STATIONS)
-    return Edge(-distances[0], weight), Edge(distances[1], weight)
-
-
 def test_line_through_points_of_a_circle_keeps_its_curvature() -> None:
     line = line_through(_arc_points(60), 13.0)
     assert np.abs(_distances_to_circle(line)).max() < 0.05
     assert np.degrees(line.heading_rad[-1]) == pytest.approx(np.degrees(LENGTH_MM / RADIUS_MM), abs=0.5)
-
-
-def test_fit_moves_a_wrong_line_onto_the_circle() -> None:
-    wrong = _arc_points(60) + np.column_stack([np.linspace(-1.0, 2.0, 60), np.zeros(60)])
-    line = line_through(wrong, 11.0)
-    for _ in range(4):
-        line, residuals = fit_edges(line, *_edges_of_circle(line, 13.0))
-    assert np.abs(_distances_to_circle(line)).max() < 0.02
-    assert np.allclose(line.curvature_per_mm, 1.0 / RADIUS_MM, atol=2e-4)
-    assert np.allclose(line.half_width_mm, 13.0, atol=0.02)
-    assert np.nanmax(np.abs(residuals)) < 0.02
-
-
-def test_outliers_and_gaps_in_one_edge_do_not_move_the_line() -> None:
-    line = line_through(_arc_points(60), 13.0)
-    left, right = _edges_of_circle(line, 13.0)
-    spoilt = left.distance_mm.copy()
-    spoilt[40:50] += 2.0
-    spoilt[90:130] = np.nan
-    fitted, _ = fit_edges(line, Edge(spoilt, left.weight), right)
-    assert np.abs(_distances_to_circle(fitted)).max() < 0.03
 
 
 def test_trimmed_line_is_a_part_of_the_line() -> None:

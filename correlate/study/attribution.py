@@ -2,61 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from spavision.errors import InputError
-from spavision.experiment import Experiment
 from spavision.tip_path import FloatArray, TipPath
 
-from .case import CaseResult
-from .emulator import Emulator, EmulatorCheck, check_emulator, fit_emulator
+from .emulator import EmulatorCheck, check_emulator, fit_emulator
 from .explanation import Explanation, explain_alone, explain_together, measured_target
-from .parameters import Value
+from .plan import Plan, RunCases, full_model_error, full_runs, n_fitted, refuse_failed
 from .sampling import draw_shares, one_at_a_time, values_at
 from .sensitivity import LocalSensitivity, SobolIndices, local_sensitivities, sobol_indices
-from .suspects import Suspect, nominal_point
+from .suspects import nominal_point
 
 if TYPE_CHECKING:
     import pandas as pd
-
-HELD_OUT = 0.125
-"""Share of the random cases that the emulator is checked with, not fitted to."""
-
-RunCases = Callable[[Sequence[dict[str, Value]], str], list[CaseResult]]
-"""Runs cases of the given values, with the model of the given name (empty for the study's)."""
-
-
-@dataclass(frozen=True)
-class Plan:
-    """What an attribution is asked.
-
-    Parameters
-    ----------
-    suspects : tuple of Suspect
-    experiment : Experiment
-    pressures_kPa : tuple of float
-    n_cases, n_full : int
-        Random cases; held-out ones among them that the full model runs too.
-    sampling : str
-    seed : int
-    """
-
-    suspects: tuple[Suspect, ...]
-    experiment: Experiment
-    pressures_kPa: tuple[float, ...]
-    n_cases: int
-    n_full: int
-    sampling: str
-    seed: int
-
-    @property
-    def of_the_model(self) -> tuple[Suspect, ...]:
-        """Suspects that move the model."""
-        return tuple(one for one in self.suspects if not one.moves_the_measurement)
 
 
 @dataclass(frozen=True)
@@ -166,19 +128,20 @@ def attribute(plan: Plan, measured: TipPath, run: RunCases) -> Attribution:
     suspects, seed = plan.of_the_model, plan.seed
     points = draw_shares(len(suspects), plan.n_cases, sampling=plan.sampling, seed=seed)
     single, random = one_at_a_time(suspects), values_at(suspects, points)
-    nominal, *results = run([{}, *single, *random], "")
-    _refuse_failed(nominal)
+    nominal, *results = run([{}, *single, *random])
+    refuse_failed(nominal)
     drawn = results[len(single) :]
-    n_fitted = plan.n_cases - max(1, round(HELD_OUT * plan.n_cases))
-    emulator = fit_emulator(suspects, points[:n_fitted], drawn[:n_fitted], seed=seed)
-    check = check_emulator(emulator, points[n_fitted:], drawn[n_fitted:])
+    fitted = n_fitted(plan.n_cases)
+    emulator = fit_emulator(suspects, points[:fitted], drawn[:fitted], seed=seed)
+    check = check_emulator(emulator, points[fitted:], drawn[fitted:])
     middle = nominal_point(suspects)
-    best_nominal, full_check = _full_runs(plan, emulator, points[n_fitted:], nominal, run)
+    full = full_runs(plan, points[fitted:], run)
+    best_nominal = full[0] if full and full[0].status != "failed" else nominal
     target = measured_target(measured, best_nominal.path(plan.pressures_kPa), plan.experiment)
     if not np.isfinite(target.measured_mm).any():
         raise InputError("the measured path and the study share no pressure; set pressures_kPa in [study]")
     together, _ = explain_together(emulator, target, nominal=middle, seed=seed)
-    (computed,) = run([together.values], "")
+    (computed,) = run([together.values])
     change = np.array([computed.ux_mm, computed.uy_mm]) - np.array([nominal.ux_mm, nominal.uy_mm])
     return Attribution(
         plan=plan,
@@ -188,35 +151,9 @@ def attribute(plan: Plan, measured: TipPath, run: RunCases) -> Attribution:
         local=local_sensitivities(suspects, results[: len(single)]),
         sobol=sobol_indices(emulator, np.array(plan.pressures_kPa), seed=seed),
         check=check,
-        full_check_mm=full_check,
+        full_check_mm=full_model_error(emulator, points[fitted:], middle, full),
         n_not_whole=sum(result.status != "ok" for result in drawn),
     )
-
-
-def _full_runs(
-    plan: Plan, emulator: Emulator, held_out: FloatArray, nominal: CaseResult, run: RunCases
-) -> tuple[CaseResult, FloatArray]:
-    """Run the full model at the nominal values and at held-out points.
-
-    Returns the best nominal path at hand, and the emulator's error in the change from it.
-    """
-    none = np.empty((0, 2, len(plan.pressures_kPa)))
-    if plan.n_full == 0:
-        return nominal, none
-    points = held_out[: plan.n_full]
-    full, *others = run([{}, *values_at(plan.of_the_model, points)], "full")
-    if full.status == "failed":
-        return nominal, none
-    middle = nominal_point(plan.of_the_model)
-    emulated = emulator.predict(points) - emulator.predict(middle[None])
-    base = np.array([full.ux_mm, full.uy_mm])
-    changes = np.array([[one.ux_mm, one.uy_mm] for one in others]) - base
-    return full, emulated - changes
-
-
-def _refuse_failed(nominal: CaseResult) -> None:
-    if nominal.status == "failed":
-        raise InputError(f"the nominal case failed: {nominal.reason}; correct the experiment file")
 
 
 def _largest(values: FloatArray) -> float:

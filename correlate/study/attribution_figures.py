@@ -30,7 +30,9 @@ def attribution_figure(alone: Sequence[Explanation], together: Explanation, *, t
     axes.set_yticks(range(len(ordered) + 1), [*names, "all of the model's together"])
     for row, one in enumerate(ordered):
         text = f" {100 * one.explained:.0f} % at {_text(next(iter(one.values.values())))}"
-        axes.text(removed[row], row, text if one.explained > 0 else " nothing", va="center", fontsize="small")
+        axes.text(
+            removed[row], row, text if one.explained >= 0.005 else " nothing", va="center", fontsize="small"
+        )
     axes.text(
         together.nominal_rmse_mm - together.rmse_mm,
         len(ordered),
@@ -40,9 +42,7 @@ def attribution_figure(alone: Sequence[Explanation], together: Explanation, *, t
     )
     axes.axvline(together.nominal_rmse_mm, color="black", linestyle="--", linewidth=1)
     axes.set_xlim(0, 1.3 * together.nominal_rmse_mm)
-    axes.set_xlabel(
-        "root mean square distance between model and measurement that goes away, mm\n(dashed: all)"
-    )
+    axes.set_xlabel("root mean square distance that goes away, mm (dashed: all of it)")
     axes.set_title(title)
     return figure
 
@@ -67,7 +67,7 @@ def sobol_figure(found: SobolIndices) -> Figure:
         axes.set_ylabel(f"total Sobol index of {name}")
         axes.set_ylim(0, None)
         axes.grid(alpha=0.3)
-    figure.axes[0].legend(fontsize="small")
+    figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     figure.axes[1].set_xlabel("pressure, kPa")
     return figure
 

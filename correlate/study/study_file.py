@@ -73,7 +73,7 @@ class UpdateSection(Section):
     """Which parameters are fitted to the first measured path; the others check."""
 
     parameters: tuple[str, ...] = Field(min_length=1, description="names of suspects")
-    steps: int = Field(2000, ge=100, le=1_000_000, description="steps of each walker of the posterior")
+    steps: int = Field(5000, ge=100, le=1_000_000, description="steps of each walker of the posterior")
 
 
 class DesignSection(Section):

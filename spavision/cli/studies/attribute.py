@@ -9,6 +9,7 @@ import click
 
 from spavision.table_text import csv_text, number, records
 
+from .runner import Runner
 from .setup import Setup, prepare, study_options
 
 if TYPE_CHECKING:
@@ -61,31 +62,14 @@ def attribute(file: Path, measured: Path | None, full_runs: int, **given: Any) -
 
 
 def _attribution(setup: Setup, target: Any, full_runs: int) -> Attribution:
-    from spavision.correlate.study.attribution import Plan, attribute
+    from spavision.correlate.study.attribution import attribute
     from spavision.model.reduced.one_thread import one_thread
 
-    study = setup.study.study
-    plan = Plan(
-        suspects=setup.suspects(),
-        experiment=setup.nominal,
-        pressures_kPa=setup.pressures_kPa,
-        n_cases=study.cases,
-        n_full=full_runs,
-        sampling=study.sampling,
-        seed=study.seed,
-    )
-    seen: list[Any] = []
-
-    def run(values: Any, model: str) -> Any:
-        cases = [setup.case(each, model=model, crimp_ratio=target.crimp_ratio) for each in values]
-        results = setup.run(cases, title=f"{model or study.model} model")
-        seen.extend(zip(cases, results, strict=True))
-        return results
-
+    runner = Runner(setup, crimp_ratio=target.crimp_ratio)
     # The emulator's matrices are small: one thread is faster.
     with one_thread():
-        found = attribute(plan, target.path, run)
-    setup.write_cases([case for case, _ in seen], [result for _, result in seen])
+        found = attribute(setup.plan(setup.suspects(), n_full=full_runs), target.path, runner)
+    runner.write_cases()
     return found
 
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from spavision.correlate.study.case_files import CaseFolder
     from spavision.correlate.study.execution import Machine
     from spavision.correlate.study.parameters import Value
+    from spavision.correlate.study.plan import Plan
     from spavision.correlate.study.study_file import StudyFile
     from spavision.correlate.study.suspects import Suspect
 
@@ -112,6 +113,21 @@ class Setup:
                 "'spavision study starter' prints"
             )
         return suspects_of(self.study, self.nominal, source=self.source)
+
+    def plan(self, suspects: tuple[Suspect, ...], *, n_full: int) -> Plan:
+        """Return what a study of these suspects is asked; so many runs of the full model check it."""
+        from spavision.correlate.study.plan import Plan
+
+        study = self.study.study
+        return Plan(
+            suspects=suspects,
+            experiment=self.nominal,
+            pressures_kPa=self.pressures_kPa,
+            n_cases=study.cases,
+            n_full=n_full,
+            sampling=study.sampling,
+            seed=study.seed,
+        )
 
     def case(self, values: dict[str, Value], *, model: str = "", crimp_ratio: float | None = None) -> Case:
         """Return the case in which the given parameters differ from their nominal values.

@@ -1,0 +1,95 @@
+"""What a study of suspects is asked, and the steps that such studies share."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from spavision.errors import InputError
+from spavision.experiment import Experiment
+from spavision.tip_path import FloatArray
+
+from .case import CaseResult, displacements
+from .emulator import Emulator
+from .parameters import Value
+from .sampling import values_at
+from .suspects import Suspect
+
+_HELD_OUT = 0.125
+
+
+class RunCases(Protocol):
+    """Runs cases of given values; the study's model and crimp ratio unless others are named."""
+
+    def __call__(
+        self, values: Sequence[dict[str, Value]], model: str = "", crimp_ratio: float | None = None
+    ) -> list[CaseResult]:
+        """Return the results in the order of the values."""
+        ...
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What an attribution is asked.
+
+    Parameters
+    ----------
+    suspects : tuple of Suspect
+    experiment : Experiment
+    pressures_kPa : tuple of float
+    n_cases, n_full : int
+        Random cases; held-out ones among them that the full model runs too.
+    sampling : str
+    seed : int
+    """
+
+    suspects: tuple[Suspect, ...]
+    experiment: Experiment
+    pressures_kPa: tuple[float, ...]
+    n_cases: int
+    n_full: int
+    sampling: str
+    seed: int
+
+    @property
+    def of_the_model(self) -> tuple[Suspect, ...]:
+        """Suspects that move the model."""
+        return tuple(one for one in self.suspects if not one.moves_the_measurement)
+
+
+def n_fitted(n_cases: int) -> int:
+    """Return how many random cases an emulator is fitted to; the rest, an eighth, check it."""
+    return n_cases - max(1, round(_HELD_OUT * n_cases))
+
+
+def refuse_failed(nominal: CaseResult) -> None:
+    """Refuse to go on from a nominal case without result.
+
+    Raises
+    ------
+    InputError
+        If it failed.
+    """
+    if nominal.status == "failed":
+        raise InputError(f"the nominal case failed: {nominal.reason}; correct the experiment file")
+
+
+def full_runs(plan: Plan, held_out: FloatArray, run: RunCases) -> list[CaseResult]:
+    """Run the full model at the nominal values and at the first held-out points, where any is asked."""
+    if plan.n_full == 0:
+        return []
+    return run([{}, *values_at(plan.of_the_model, held_out[: plan.n_full])], model="full")
+
+
+def full_model_error(
+    emulator: Emulator, held_out: FloatArray, middle: FloatArray, full: list[CaseResult]
+) -> FloatArray:
+    """Return emulated minus full model, both as changes from their nominal path, (n, 2, n_pressures)."""
+    if not full or full[0].status == "failed":
+        return np.empty((0, 2, emulator.n_pressures))
+    values = displacements(full)
+    emulated = emulator.predict(held_out[: len(full) - 1]) - emulator.predict(middle[None])
+    return np.asarray(emulated - (values[1:] - values[0]))

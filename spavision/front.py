@@ -76,8 +76,7 @@ class Tracked:
         InputError
             If the folder holds files already and ``force`` is off, or cannot be written to.
         """
-        results = ResultsFolder(Path(folder), force=force)
-        results.take_over(self.scratch)
+        results = _begun(folder, self.scratch, force=force)
         save_measurement(results, self.measurement, self.experiment)
         return results.path
 
@@ -121,8 +120,7 @@ class Simulated:
         InputError
             If the folder holds files already and ``force`` is off, or cannot be written to.
         """
-        results = ResultsFolder(Path(folder), force=force)
-        results.take_over(self.scratch)
+        results = _begun(folder, self.scratch, force=force)
         save_simulation(results, self.simulation, self.experiment)
         return results.path
 
@@ -164,8 +162,7 @@ class Compared:
         InputError
             If the folder holds files already and ``force`` is off, or cannot be written to.
         """
-        results = ResultsFolder(Path(folder), force=force)
-        results.take_over(self.scratch)
+        results = _begun(folder, self.scratch, force=force)
         write_comparison(results, self.comparison, formats=formats)
         return results.path
 
@@ -282,6 +279,13 @@ def _experiment(
         experiment = Experiment() if file is None else read_experiment(file)
         results.record_inputs([] if file is None else [file])
     return experiment.with_options({name: dict(keys) for name, keys in sections.items()}, source="arguments")
+
+
+def _begun(folder: str | Path, scratch: ResultsFolder, *, force: bool) -> ResultsFolder:
+    """Return a results folder that holds already what was read on the way."""
+    results = ResultsFolder(Path(folder), force=force)
+    results.take_over(scratch)
+    return results
 
 
 def _scratch() -> ResultsFolder:

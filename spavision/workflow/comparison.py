@@ -68,10 +68,15 @@ def compare_with_model(side: MeasuredSide, *, quiet: bool) -> Comparison:
     Raises
     ------
     InputError
-        If the measured pressures lie outside the model's range, or the model cannot be set up.
+        If there is nothing but the reference, the measured pressures lie outside the model's range, or the model cannot be set up.
     """
     from spavision.model.simulate import LARGEST_PRESSURE_KPA
 
+    if len(side.path.readings()) == 1 and side.reference_is_read:
+        raise InputError(
+            f"{side.source.place}: holds one reading, the reference that the others are relative to; "
+            "a comparison needs one more at least"
+        )
     highest = float(side.path.pressure_kPa.max())
     if highest > LARGEST_PRESSURE_KPA:
         raise InputError(

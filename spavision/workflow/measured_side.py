@@ -51,14 +51,18 @@ class MeasuredSide:
         return self.source.notes + tracked
 
     @property
+    def reference_is_read(self) -> bool:
+        """Whether the lowest reading is the one that the displacements are relative to."""
+        first = self.path.readings().take(np.array([0]))
+        return bool(first.ux_mm[0] == 0.0 and first.uy_mm[0] == 0.0)
+
+    @property
     def reference_kPa(self) -> float:
         """Pressure that the displacements are relative to.
 
         The lowest reading's, where it holds no displacement; else the displacements began at rest, at 0 kPa.
         """
-        first = self.path.readings().take(np.array([0]))
-        at_rest = first.ux_mm[0] == 0.0 and first.uy_mm[0] == 0.0
-        return float(first.pressure_kPa[0]) if at_rest else 0.0
+        return float(self.path.readings().pressure_kPa[0]) if self.reference_is_read else 0.0
 
     @property
     def model_pressure_kPa(self) -> FloatArray:

@@ -94,6 +94,8 @@ def test_a_first_bend_to_the_left_is_turned_into_the_model_s_axes(spavision, tmp
         (GOOD.replace(",", ";"), ("measured.csv", "semicolons")),
         (GOOD + "900,2,2\n", ("measured.csv", "900", "range")),
         ("pressure_kPa,ux_mm,uy_mm\n0,,\n", ("measured.csv", "no row")),
+        ("pressure_kPa,ux_mm,uy_mm\n0,0,0\n5,,\n", ("measured.csv", "one reading", "one more")),
+        (GOOD.replace("1.5", "inf"), ("measured.csv", "inf", "number")),
     ],
 )
 def test_a_bad_table_is_refused(spavision, tmp_path, text, words):

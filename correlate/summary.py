@@ -78,8 +78,8 @@ class Summary:
         caveat = f" ({' and '.join(left_out)} not estimated, so it is a lower bound)" if left_out else ""
         if not any(np.any(v.is_significant & common) for v in (self.validation_x, self.validation_y)):
             return (
-                f"Nowhere does the error exceed twice the validation uncertainty{caveat}: model and measurement "
-                "do not differ significantly (V&V 20)."
+                f"Nowhere does the error exceed twice the validation uncertainty{caveat}: "
+                "model and measurement do not differ significantly (V&V 20)."
             )
         return (
             f"The error exceeds twice the validation uncertainty{caveat} at {' and '.join(counts)} "

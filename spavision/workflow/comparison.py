@@ -68,7 +68,8 @@ def compare_with_model(side: MeasuredSide, *, quiet: bool) -> Comparison:
     Raises
     ------
     InputError
-        If there is nothing but the reference, the measured pressures lie outside the model's range, or the model cannot be set up.
+        If there is nothing but the reference, the measured pressures lie outside the model's range, or
+        the model cannot be set up.
     """
     from spavision.model.simulate import LARGEST_PRESSURE_KPA
 

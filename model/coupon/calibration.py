@@ -124,7 +124,8 @@ def ogden_composite(
         uncertain="; ".join(fit.notes),
         strain_range=(min(0.0, float(curve.strain.min())), float(curve.strain.max())),
     )
-    return OgdenComposite(material, (_ogden_note(curve, fit), *fit.notes))
+    notes = (_ogden_note(curve, fit), *(f"Ogden composite: {note}" for note in fit.notes))
+    return OgdenComposite(material, notes)
 
 
 def _primary_ratio(curve: MeasuredCurve, matrix: IsotropicLaw) -> float:

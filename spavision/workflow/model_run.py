@@ -17,7 +17,7 @@ from .progress import progress_bar
 
 if TYPE_CHECKING:
     from spavision.model.reduced.ramp import ReducedSimulation
-    from spavision.model.simulate import Simulation
+    from spavision.model.simulate import Simulation, SimulationSettings
 
 
 def run_model(experiment: Experiment, pressure_kPa: FloatArray, *, quiet: bool) -> Simulation:
@@ -131,5 +131,15 @@ def simulation_record(simulation: Simulation) -> dict[str, Any]:
         "steps": len(simulation.steps),
         "stopped_at_kPa": simulation.stopped_at_kPa,
         "stop_reason": simulation.stop_reason,
+        "composite": _composite_record(simulation.settings),
         "design": asdict(design_outputs(simulation)) if reached else None,
     }
+
+
+def _composite_record(settings: SimulationSettings) -> dict[str, Any]:
+    """Return the composite as it was used: stated, or calibrated to a curve."""
+    from spavision.model.materials.law_tables import law_to_table
+
+    if settings.composite is not None:
+        return {"source": settings.composite.source, **law_to_table(settings.composite.law)}
+    return {"matrix_stiffness": settings.matrix_stiffness, **asdict(settings.paper)}

@@ -24,6 +24,7 @@ def test_a_short_ramp_writes_path_fields_and_picture(spavision, tmp_path):
     assert record["experiment"]["actuator"]["crimp_ratio"] == 0.2
     assert {"fields/ramp.pvd", "figures/ramp.gif"} <= set(record["files"])
     assert record["simulation"]["design"]["volume_ratio"] > 1.0
+    assert record["simulation"]["composite"]["transition_factor"] == 0.69
     assert "largest stretch, Ecoflex 00-30" in outcome.out
     assert (tmp_path / "actuator.inp").read_text().count("*STEP") == 2  # the weight, 5 kPa
 
@@ -61,6 +62,12 @@ def test_a_deck_is_not_replaced_unasked(spavision, tmp_path):
         ((), ("crimp ratio", "--crimp")),
         (("--crimp", "0.9"), ("crimp_ratio", "0.9")),
         (("--crimp", "0.2", "--mesh", "coarse"), ("mesh", "coarse", "draft")),
+        (("--crimp", "0.2", "--composite", "hooke"), ("hooke", "slack-fibre", "resolved")),
+        (
+            ("--crimp", "0.2", "--composite", "ogden", "--composite-curve", "no.csv"),
+            ("no.csv", "cannot be read"),
+        ),
+        (("--crimp", "0.2", "--composite", "resolved", "--composite-curve", "no.csv"), ("resolved", "curve")),
         (("--crimp", "0.2", "--pressures-kpa", "0:65"), ("--pressures-kpa",)),
         (("--crimp", "0.2", "--pressures-kpa", "10,5"), ("--pressures-kpa", "increasing")),
         (("--crimp", "0.2", "--pressures-kpa", "0,9000"), ("9000",)),

@@ -12,6 +12,7 @@ COMMANDS = {
     "tolerance": "Band around the modelled path that the suspects' scatter leaves: u_input.",
     "attribute": "How much of the discrepancy each suspect can explain: sensitivities, Sobol indices.",
     "update": "Fit parameters to a measured path, with their posterior; check on other paths.",
+    "design": "Crimp ratio and strip for a wished mode-change pressure or tip path.",
 }
 """Name and one line of help of each command; the module of the same name in ``studies`` holds it."""
 

@@ -50,8 +50,7 @@ def coupon(**given: Any) -> None:
 
     Gives the stress-strain curve of a crimp ratio that nobody tested, with primary and secondary modulus and
     the strain transition point by the article's procedure, and the slack-fibre law that stands for it in the
-    actuator's model. Writes curve.csv, composite.toml, a figure, the
-    fields as VTU files and run.json.
+    actuator's model. Writes the curve, composite.toml, a figure, the fields as VTU files and run.json.
     """
     from spavision.results import ResultsFolder
 

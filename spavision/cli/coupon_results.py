@@ -30,7 +30,8 @@ def write_coupon(results: ResultsFolder, coupon: Coupon, *, options: Mapping[str
     from spavision.model.coupon.export import write_vtu_series
     from spavision.model.coupon.figures import coupon_figure
 
-    results.write_text("curve.csv", csv_text(curve_table(coupon)))
+    # the name tells spavision fit the mode
+    results.write_text(f"curve-{coupon.curve().mode.name}.csv", csv_text(curve_table(coupon)))
     figure = coupon_figure(coupon, _transition(coupon))
     for ending in ("png", "svg"):
         results.write_bytes(f"figures/coupon.{ending}", figure_bytes(figure, ending))

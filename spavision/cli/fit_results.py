@@ -15,7 +15,7 @@ from spavision.model.fitting.fit import FitSettings, LawFit, fit_all, fit_law
 from spavision.model.fitting.measured_curve import MeasuredCurve
 from spavision.model.fitting.report import fit_report
 from spavision.model.fitting.transition import StrainTransition, strain_transition, transition_or_none
-from spavision.model.materials.curves import UNIAXIAL
+from spavision.model.materials.curves import PLANAR, UNIAXIAL
 from spavision.model.materials.law_tables import law_to_table
 from spavision.model.materials.material_files import Material, material_text
 from spavision.results import ResultsFolder
@@ -160,18 +160,19 @@ def comparison_rows(run: FitRun) -> tuple[list[str], list[list[str]]]:
 
 
 def tension_curve(curves: Sequence[MeasuredCurve]) -> MeasuredCurve:
-    """Return the first uniaxial tension test, of which the transition point is asked.
+    """Return the tension test of which the transition point is asked: uniaxial, else planar, the first.
 
     Raises
     ------
     InputError
         If there is none.
     """
-    for curve in curves:
-        if curve.mode == UNIAXIAL and curve.strain.max() > -curve.strain.min():
-            return curve
+    for mode in (UNIAXIAL, PLANAR):
+        for curve in curves:
+            if curve.mode == mode and curve.strain.max() > -curve.strain.min():
+                return curve
     raise InputError(
-        "--transition: none of the files is a uniaxial tension test; add one or leave the option out"
+        "--transition: none of the files is a uniaxial or planar tension test; add one or leave it out"
     )
 
 

@@ -15,12 +15,12 @@ def test_a_coupon_leaves_curve_figure_fields_and_record(spavision, tmp_path):
     assert outcome.code == 0, outcome.err
     assert "published test: 38.8 %" in outcome.out
     assert "Assumed: wavelength" in outcome.out
-    curve = pd.read_csv(tmp_path / "out" / "curve.csv")
+    curve = pd.read_csv(tmp_path / "out" / "curve-planar.csv")
     assert curve["strain"][0] == 0.0
     assert np.all(np.diff(curve["nominal_stress_MPa"]) > 0.0)
     record = json.loads((tmp_path / "out" / "run.json").read_text(encoding="utf-8"))
     assert record["coupon"]["ended_by"] == "tear"
-    assert {"curve.csv", "figures/coupon.png", "fields/coupon_000.vtu"} <= set(record["files"])
+    assert {"curve-planar.csv", "figures/coupon.png", "fields/coupon_000.vtu"} <= set(record["files"])
     field = meshio.read(tmp_path / "out" / "fields" / "coupon_001.vtu")
     # half of the wave of 5 mm, pulled by 4 %
     assert field.point_data["displacement_mm"][:, 0].max() == pytest.approx(0.04 * 2.5)
@@ -28,9 +28,11 @@ def test_a_coupon_leaves_curve_figure_fields_and_record(spavision, tmp_path):
 
 def test_fit_takes_the_curve_as_it_is(spavision):
     assert spavision("coupon", *QUICK, "-q", "-o", "out").code == 0
-    outcome = spavision("fit", "out/curve.csv", "--mode", "planar", "--law", "gent", "--json")
+    outcome = spavision("fit", "out/curve-planar.csv", "--law", "gent", "--json")
     assert outcome.code == 0, outcome.err
-    assert json.loads(outcome.out)["fits"][0]["r_squared"] > 0.8
+    result = json.loads(outcome.out)
+    assert result["curves"][0]["mode"] == "planar"
+    assert result["fits"][0]["r_squared"] > 0.8
 
 
 def test_options_reach_the_coupon(spavision):

@@ -127,7 +127,7 @@ def test_standard_errors_between_replicates(spavision, tmp_path):
         (("tension.csv", "--weights", "-1"), ("--weights",)),
         (("tension.csv", "--columns", "strain"), ("--columns", "1 columns")),
         (("tension.csv", "--transition"), ("modulus falls",)),
-        (("tension.csv", "--mode", "planar", "--transition"), ("--transition", "uniaxial tension")),
+        (("tension.csv", "--mode", "equibiaxial", "--transition"), ("--transition", "tension test")),
         (("tension.csv", "--density-g-per-cm3", "1100"), ("--density-g-per-cm3",)),
         (("kilopascals.csv",), ("--stress-unit",)),
         (("tension.csv", "--errors", "replicates"), ("--errors replicates", "twice")),

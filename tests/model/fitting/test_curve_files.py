@@ -136,6 +136,7 @@ def test_rows_with_gaps_are_left_out_and_told(tmp_path):
     ("text", "sentence"),
     [
         ("", "no line holds two numbers"),
+        ("strain,stress_MPa\n0,\n0.1,\n", "neither of them empty"),
         ("0.1 0.2\n0.2 0.3\n", "has no header line"),
         ("force,extension\n1,2\n2,3\n", "no column is named strain"),
         ("strain,force\n1,2\n2,3\n", "no column is named stress"),

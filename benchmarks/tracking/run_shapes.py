@@ -76,10 +76,9 @@ def main() -> None:
     options = parser.parse_args()
     scores = {}
     with tempfile.TemporaryDirectory() as scratch:
-        for benchmark in benchmark_sets(tuple(options.sets), seeds=options.seed):
-            if benchmark.seed == options.seed:
-                scores[benchmark.name] = score(benchmark, rendered(benchmark, options.cache or Path(scratch)))
-                print(scores[benchmark.name].row(benchmark.name), flush=True)
+        for benchmark in benchmark_sets(tuple(options.sets), seeds=(options.seed,)):
+            scores[benchmark.name] = score(benchmark, rendered(benchmark, options.cache or Path(scratch)))
+            print(scores[benchmark.name].row(benchmark.name), flush=True)
     text = _table(scores)
     print(f"\n{text}")
     if options.write:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -13,12 +14,16 @@ from .geometry import ActuatorGeometry
 from .hex_mesh import BoolArray, HexMesh, TensorGrid, structured_mesh
 
 REGIONS = ("composite", "strip A", "body", "strip B")
+
+Division = int | tuple[float, ...]
+"""Number of equal elements, or the fractions of the way at which the lines between unequal ones are."""
+
 _VOID = -1
 
 
 @dataclass(frozen=True)
 class MeshLevel:
-    """Element order and number of elements in each part of the structure.
+    """Element order and elements in each part of the structure, see `Division`.
 
     Parameters
     ----------
@@ -30,31 +35,40 @@ class MeshLevel:
         Across the half width.
     void_length, wall_length : int
         Along the actuator, in each void and each wall.
-    void_width_grading : float
-        Length of each element across the void over that of the one before, towards the side wall: the
-        corner between the two attracts the largest gradients.
+    void_middle, void_width_middle : float
+        Where the middle of the void's elements is, as a fraction of the way from the channel to the roof
+        and to the side wall; beyond 0.5 elements and their middle nodes are drawn towards the corners,
+        which attract the largest gradients. Between 0.25 and 0.75, where the map becomes singular.
     """
 
     order: int
-    composite: int = 1
-    strip_a: int = 1
-    channel: int = 1
-    void: int = 1
-    roof: int = 1
-    strip_b: int = 1
-    channel_width: int = 1
-    void_width: int = 1
-    side_wall: int = 1
-    void_length: int = 1
-    wall_length: int = 1
-    void_width_grading: float = 1.0
+    composite: Division = 1
+    strip_a: Division = 1
+    channel: Division = 1
+    void: Division = 1
+    roof: Division = 1
+    strip_b: Division = 1
+    channel_width: Division = 1
+    void_width: Division = 1
+    side_wall: Division = 1
+    void_length: Division = 1
+    wall_length: Division = 1
+    void_middle: float = 0.5
+    void_width_middle: float = 0.5
 
 
 MESH_LEVELS = {
-    "draft": MeshLevel(order=2),
-    "default": MeshLevel(order=2, void=2, void_length=2),
+    "draft": MeshLevel(order=2, void_width_middle=0.7),
+    "default": MeshLevel(order=2, void=3, void_length=2, void_middle=0.7, void_width_middle=0.73),
     "fine": MeshLevel(
-        order=2, void=2, void_width=2, void_width_grading=1 / 3, side_wall=2, void_length=2, channel=2
+        order=2,
+        void=4,
+        void_width=2,
+        side_wall=2,
+        void_length=2,
+        wall_length=2,
+        void_middle=0.6,
+        void_width_middle=0.65,
     ),
 }
 """Chosen by `benchmarks/fe_convergence.py`; their errors are in `model.mesh_error`."""
@@ -99,6 +113,7 @@ def mesh_at_level(geometry: ActuatorGeometry, level: MeshLevel) -> HexMesh:
         region=_regions(geometry, grid.cell_centres()),
         region_names=REGIONS,
         is_cavity_face=is_cavity_face,
+        mapping=partial(_drawn_to_corners, geometry=geometry, level=level),
     )
     sets = {
         "clamp": np.flatnonzero(np.isclose(mesh.nodes_mm[:, 1], 0.0)),
@@ -123,31 +138,38 @@ def _grid(geometry: ActuatorGeometry, level: MeshLevel) -> TensorGrid:
         (half_void - half_channel, level.void_width),
         (geometry.side_wall_mm, level.side_wall),
     ]
-    gradings = (1.0, level.void_width_grading, 1.0)
-    along: list[tuple[float, int]] = []
+    along: list[tuple[float, Division]] = []
     previous_end = 0.0
     for begin, end in geometry.void_spans_mm():
         along += [(begin - previous_end, level.wall_length), (end - begin, level.void_length)]
         previous_end = end
     along.append((geometry.length_mm - previous_end, level.wall_length))
-    return TensorGrid(_lines(across), _lines(along), _lines(wide, gradings))
+    return TensorGrid(_lines(across), _lines(along), _lines(wide))
 
 
-def _lines(intervals: list[tuple[float, int]], gradings: tuple[float, ...] | None = None) -> FloatArray:
-    """Grid lines from 0 of consecutive intervals (length, number of elements), empty ones left out."""
-    ratios = gradings or (1.0,) * len(intervals)
+def _drawn_to_corners(nodes: FloatArray, *, geometry: ActuatorGeometry, level: MeshLevel) -> FloatArray:
+    """Move the nodes beside the voids towards roof and side wall."""
+    x, y, z = nodes.T
+    base = geometry.body_base_mm
+    x = _drawn(x, base + geometry.channel_height_mm, base + geometry.void_depth_mm, level.void_middle)
+    z = _drawn(z, 0.5 * geometry.channel_width_mm, 0.5 * geometry.void_width_mm, level.void_width_middle)
+    return np.column_stack([x, y, z])
+
+
+def _drawn(coordinate: FloatArray, begin: float, end: float, middle: float) -> FloatArray:
+    """Map an interval onto itself by the parabola that takes its middle to a given fraction of it."""
+    local = np.clip((coordinate - begin) / (end - begin), 0.0, 1.0)
+    return coordinate + (4.0 * middle - 2.0) * local * (1.0 - local) * (end - begin)
+
+
+def _lines(intervals: list[tuple[float, Division]]) -> FloatArray:
+    """Grid lines from 0 of consecutive intervals (length, division), empty ones left out."""
     steps = [
-        length * _shares(count, ratio)
-        for (length, count), ratio in zip(intervals, ratios, strict=True)
+        length * np.diff(np.linspace(0.0, 1.0, parts + 1) if isinstance(parts, int) else [0.0, *parts, 1.0])
+        for length, parts in intervals
         if length > 0.0
     ]
     return np.concatenate([[0.0], np.cumsum(np.concatenate(steps))])
-
-
-def _shares(count: int, ratio: float) -> FloatArray:
-    """Lengths of elements that grow by a ratio and add up to one."""
-    sizes = ratio ** np.arange(count)
-    return sizes / sizes.sum()
 
 
 def _regions(geometry: ActuatorGeometry, centres: FloatArray) -> IntArray:

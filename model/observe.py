@@ -10,6 +10,8 @@ from .elements import FloatArray, IntArray, shape_functions
 from .geometry import ActuatorGeometry
 from .hex_mesh import HexMesh
 
+_LOCATING_STEPS = 5
+
 
 @dataclass(frozen=True)
 class MaterialPoint:
@@ -30,7 +32,7 @@ class MaterialPoint:
 
 
 def locate(mesh: HexMesh, position_mm: FloatArray) -> MaterialPoint:
-    """Find a point of the undeformed body in a mesh of boxes.
+    """Find a point of the undeformed body in a mesh of boxes, nodes graded along their edges.
 
     Raises
     ------
@@ -74,9 +76,11 @@ def centre_line(mesh: HexMesh, geometry: ActuatorGeometry, displacement_mm: Floa
 
 
 def _local_coordinates(mesh: HexMesh, element: int, position_mm: FloatArray) -> FloatArray:
-    """Coordinates in the unit cube; one step of Newton's method is exact for a box."""
-    centre = np.full((1, 3), 0.5)
-    values, gradients = shape_functions(mesh.order, centre)
+    """Coordinates in the unit cube, by Newton's method: one step for a box, a few where nodes are graded."""
     corners = mesh.nodes_mm[mesh.elements[element]]
-    jacobian = np.einsum("ai,ja->ij", corners, gradients[0])
-    return centre[0] + np.linalg.solve(jacobian, position_mm - values[0] @ corners)
+    local = np.full(3, 0.5)
+    for _ in range(_LOCATING_STEPS):
+        values, gradients = shape_functions(mesh.order, local[None, :])
+        jacobian = np.einsum("ai,ja->ij", corners, gradients[0])
+        local = local + np.linalg.solve(jacobian, position_mm - values[0] @ corners)
+    return local

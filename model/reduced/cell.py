@@ -175,7 +175,9 @@ def _upper_half(one: ActuatorGeometry, mesh_level: str) -> HexMesh:
     if mesh_level not in MESH_LEVELS:
         return actuator_mesh(one, level=mesh_level)
     level = MESH_LEVELS[mesh_level]
-    whole = mesh_at_level(one, replace(level, void_length=level.void_length + level.void_length % 2))
+    if isinstance(level.void_length, int):
+        level = replace(level, void_length=level.void_length + level.void_length % 2)
+    whole = mesh_at_level(one, level)
     middle = 0.5 * one.pitch_mm
     y = whole.nodes_mm[:, 1]
     kept = y[whole.elements].mean(axis=1) > middle

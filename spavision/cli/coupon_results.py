@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
@@ -45,9 +46,7 @@ def write_coupon(results: ResultsFolder, coupon: Coupon, *, options: Mapping[str
     results.write_record(
         {
             "command": "coupon",
-            "options": {
-                key: str(value) if isinstance(value, Path) else value for key, value in options.items()
-            },
+            "options": {key: _plain(value) for key, value in options.items()},
             "coupon": coupon_record(coupon),
         }
     )
@@ -71,7 +70,7 @@ def coupon_record(coupon: Coupon) -> dict[str, Any]:
     transition, composite = _transition(coupon), _calibrated(coupon)
     return {
         "geometry": asdict(coupon.cell.geometry),
-        "paper": {key: _finite(value) for key, value in asdict(coupon.cell.beam.paper).items()},
+        "paper": {key: _plain(value) for key, value in asdict(coupon.cell.beam.paper).items()},
         "settings": asdict(coupon.settings),
         "points": len(coupon.strain),
         "straight_strain": coupon.cell.geometry.straight_strain,
@@ -163,5 +162,7 @@ def _calibrated(coupon: Coupon) -> SlackFibreComposite | None:
         return None
 
 
-def _finite(value: float) -> float | str:
-    return value if abs(value) < float("inf") else "inf"
+def _plain(value: Any) -> Any:
+    """Return a value as JSON takes it: a path or an infinite number as text."""
+    infinite = isinstance(value, float) and not math.isfinite(value)
+    return str(value) if infinite or isinstance(value, Path) else value

@@ -39,11 +39,12 @@ def test_options_reach_the_coupon(spavision):
     """Without paper and with a free width: uniaxial tension of the matrix, no transition."""
     outcome = spavision(
         "coupon", *QUICK, "--paper-modulus-mpa", "0", "--lateral", "plane-stress", "--end-strain", "0.2",
-        "--matrix", "Ecoflex 00-30, Marechal 2021", "--wavelength-mm", "4", "--thickness-mm", "3", "--json",
+        "--paper-yield-mpa", "inf", "--matrix", "Ecoflex 00-30, Marechal 2021", "--wavelength-mm", "4", "--thickness-mm", "3", "--json",
     )  # fmt: skip
     assert outcome.code == 0, outcome.err
     result = json.loads(outcome.out)
     assert (result["geometry"]["wavelength_mm"], result["geometry"]["thickness_mm"]) == (4.0, 3.0)
+    assert result["paper"]["bending_yield_MPa"] == "inf"
     assert result["ended_by"] == "end strain"
     assert result["transition"] is None
     # Ogden of one term, μ (λ^(α−1) − λ^(−α/2−1)), μ = 0.0131834 MPa, α = 2.27526

@@ -147,6 +147,19 @@ def comparison() -> str:
     return table(header, rows)
 
 
+def ogden_sets() -> str:
+    """Stable three-term Ogden laws fitted to the coupon's curves, where the article has its Table 1."""
+    rows = []
+    for ratio in CRIMP_RATIOS:
+        curve = replace(pull(Case("", crimp_ratio=ratio)).curve(), mode=UNIAXIAL)
+        fit = fit_law("ogden", [curve], FitSettings(any_modulus=True))
+        pairs = "; ".join(f"{each.name} {each.value:.5g}" for each in fit.parameters)
+        rows.append(
+            [f"{ratio:g}", pairs, f"{1e3 * fit.law.shear_modulus_MPa:.1f}", f"{fit.goodness.r_squared:.3f}"]
+        )
+    return table(["crimp ratio", "parameters, μ in MPa", "G0 kPa", "R²"], rows)
+
+
 def merit(coupon: Coupon, law: str, allow_unstable: bool) -> str:
     measured = coupon.transition()
     # the curve is read as a uniaxial test, as the article does
@@ -204,6 +217,7 @@ def main() -> None:
         ),
         "{{RADIUS}}": radius_and_sampling(),
         "{{LAWS}}": comparison(),
+        "{{OGDEN}}": ogden_sets(),
     }
     page = TEXT.read_text(encoding="utf-8")
     for mark, text in parts.items():

@@ -39,7 +39,8 @@ def test_options_reach_the_coupon(spavision):
     """Without paper and with a free width: uniaxial tension of the matrix, no transition."""
     outcome = spavision(
         "coupon", *QUICK, "--paper-modulus-mpa", "0", "--lateral", "plane-stress", "--end-strain", "0.2",
-        "--paper-yield-mpa", "inf", "--matrix", "Ecoflex 00-30, Marechal 2021", "--wavelength-mm", "4", "--thickness-mm", "3", "--json",
+        "--paper-yield-mpa", "inf",
+        "--matrix", "Ecoflex 00-30, Marechal 2021", "--wavelength-mm", "4", "--thickness-mm", "3", "--json",
     )  # fmt: skip
     assert outcome.code == 0, outcome.err
     result = json.loads(outcome.out)

@@ -25,6 +25,7 @@ WITH_UNIT = re.compile(
     r"(\d+[a-z](?=\d))?(?<![\d.,])(\d+(?:[.,]\d+)?)\s?[_-]?(hpa|kpa|mpa|pa|mbar|bar|psi)(?![a-z])", re.I
 )
 WITH_P = re.compile(r"(?<![a-z\d])p[_-]?(\d+(?:[.,]\d+)?)(?![a-z\d.,]*\d)", re.I)
+P_AND_DIGIT = re.compile(r"(?<![a-z\d])p[_-]?\d+[_-]\d(?!\d)", re.I)
 SUFFIX = re.compile(r"\.(jpe?g|png|tiff?|bmp|webp)$", re.I)
 
 
@@ -48,7 +49,7 @@ def pressures_from_names(names: Sequence[str]) -> FloatArray:
     stems = [SUFFIX.sub("", name) for name in names]
     told = [_with_unit(stem) for stem in stems]
     if not any(told):
-        told = [[float(text.replace(",", ".")) for text in WITH_P.findall(stem)] for stem in stems]
+        told = [_with_p(stem) for stem in stems]
     unclear = [name for name, values in zip(names, told, strict=True) if len(set(values)) != 1]
     if unclear:
         raise InputError(
@@ -147,7 +148,7 @@ def _refuse_gap(names: list[str]) -> None:
     for counter in zip(*numbers, strict=True):
         steps = np.diff([int(text) for text in counter])
         # A date or a time of day does not go up by one from most photographs to the next.
-        if np.count_nonzero(steps == 1) > 0.5 * len(steps) and steps.min() >= 1 and steps.max() > 1:
+        if np.count_nonzero(steps == 1) >= 0.5 * len(steps) and steps.min() >= 1 and steps.max() > 1:
             skip = int(np.argmax(steps > 1))
             raise InputError(
                 f"the numbering skips from {names[skip]} to {names[skip + 1]}, so a photo may be missing and "
@@ -164,6 +165,13 @@ def _with_unit(stem: str) -> list[float]:
     return [
         round(float(number.replace(",", ".")) * KPA_PER_UNIT[unit.lower()], 9) for _, number, unit in found
     ]
+
+
+def _with_p(stem: str) -> list[float]:
+    """Every pressure after the letter p in a name; a single digit after it (p1_5, p1-5) makes it unclear."""
+    if P_AND_DIGIT.search(stem):
+        return [np.nan, np.inf]
+    return [float(text.replace(",", ".")) for text in WITH_P.findall(stem)]
 
 
 def _refuse_duplicates(names: Sequence[str], pressures: FloatArray) -> None:

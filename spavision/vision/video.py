@@ -72,6 +72,9 @@ def hold_frames(path: Path, holds: list[Hold]) -> Iterator[HoldFrame]:
     """
     with _opened(path) as video:
         length_s = _length_s(video)
+        for hold in holds:
+            if hold.start_s >= length_s:
+                raise _nothing_shown(path, hold, length_s)
         times = _times(video)
         now = next(times, np.inf)
         for hold in holds:
@@ -82,13 +85,16 @@ def hold_frames(path: Path, holds: list[Hold]) -> Iterator[HoldFrame]:
                 if now < hold.end_s and now not in taken:
                     taken[now] = _retrieve(video, path)
             if not taken:
-                raise InputError(
-                    f"{path.name} shows nothing of the hold at {hold.pressure_kPa:g} kPa from "
-                    f"{hold.start_s:g} s on; expected times from the video's beginning, within its "
-                    f"{length_s:.1f} s"
-                )
+                raise _nothing_shown(path, hold, length_s)
             calmest = list(taken)[_calmest(list(taken.values()))]
             yield HoldFrame(hold, calmest, taken[calmest])
+
+
+def _nothing_shown(path: Path, hold: Hold, length_s: float) -> InputError:
+    return InputError(
+        f"{path.name} shows nothing of the hold at {hold.pressure_kPa:g} kPa from {hold.start_s:g} s on; "
+        f"expected times from the video's beginning, within its {length_s:.1f} s"
+    )
 
 
 @contextmanager

@@ -44,6 +44,8 @@ def test_a_pressure_is_read_from_its_name(name, expected_kPa):
         ["tip12.jpg"],
         ["10kPa_to_20kPa.jpg"],
         ["0p5kPa.jpg"],
+        ["p1_5.jpg"],
+        ["p0-5.jpg"],
         ["p5_p10.jpg"],
         ["5kPa.jpg", "photo_b.jpg"],
         ["5kPa.jpg", "p010.jpg"],
@@ -104,8 +106,9 @@ def test_a_list_is_laid_over_the_natural_order_when_its_length_fits():
         pressures_from_list(names, [0, 5])
 
 
-def test_a_step_is_refused_where_the_counter_skips():
-    names = ["IMG_0003.jpg", "IMG_0004.jpg", "IMG_0006.jpg", "IMG_0007.jpg"]
+@pytest.mark.parametrize("more", [[], ["IMG_0007.jpg"]])
+def test_a_step_is_refused_where_the_counter_skips(more):
+    names = ["IMG_0003.jpg", "IMG_0004.jpg", "IMG_0006.jpg", *more]
     with pytest.raises(InputError, match=r"skips from IMG_0004\.jpg to IMG_0006\.jpg"):
         pressures_from_step(names, 5.0)
 

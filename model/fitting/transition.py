@@ -76,7 +76,8 @@ def strain_transition(strain: FloatArray, stress_MPa: FloatArray, *, name: str) 
     Raises
     ------
     InputError
-        If there are too few points for the two lines, they overlap, or the curve does not stiffen.
+        If there are too few points for the two lines, they overlap, the curve does not stiffen, or the lines
+        meet outside it.
 
     References
     ----------
@@ -104,6 +105,11 @@ def strain_transition(strain: FloatArray, stress_MPa: FloatArray, *, name: str) 
     crossing = (primary.intercept_MPa - secondary.intercept_MPa) / (
         secondary.modulus_MPa - primary.modulus_MPa
     )
+    if not 0.0 < crossing < strain[-1]:
+        raise InputError(
+            f"{name}: the lines of the primary and the secondary modulus meet at {crossing:.1%} strain, outside "
+            f"the test of 0 to {strain[-1]:.1%}, so there is no transition within it; leave --transition out"
+        )
     return StrainTransition(float(crossing), primary, secondary)
 
 

@@ -51,3 +51,11 @@ def test_error_is_the_articles():
 def test_curves_without_a_transition_are_told(strain, sentence):
     with pytest.raises(InputError, match=sentence):
         strain_transition(strain, bilinear(strain, primary=1.0, secondary=0.1, knee=0.2), name="test")
+
+
+def test_lines_that_meet_outside_the_test_are_no_transition():
+    """0.5·x below 10 %, then a plateau ten times as high and 1·x on top: the lines meet at −9."""
+    strain = np.linspace(0.0, 1.0, 101)
+    stress = np.where(strain < 0.5, 0.5 * strain, 4.5 + strain)
+    with pytest.raises(InputError, match="outside the test"):
+        strain_transition(strain, stress, name="test")

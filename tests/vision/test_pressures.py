@@ -90,7 +90,7 @@ def test_a_bad_table_is_refused(columns, message):
 
 
 def test_a_step_counts_along_the_natural_order():
-    assert list(pressures_from_step(["p10.jpg", "p2.jpg", "p1.jpg"], 5.0)) == [10.0, 5.0, 0.0]
+    assert list(pressures_from_step(["p11.jpg", "p10.jpg", "p9.jpg"], 5.0)) == [10.0, 5.0, 0.0]
 
 
 @pytest.mark.parametrize("step_kPa", [0.0, -5.0, float("nan")])

@@ -123,11 +123,11 @@ def _refuse_other_version(record: Path) -> None:
         version = json.loads(record.read_text(encoding="utf-8"))["version"]
         theirs, ours = version_text(version), version_text(model_version())
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise InputError(f"{record}: is damaged; choose another folder with --output") from error
+        raise InputError(f"{record}: is damaged; choose another folder") from error
     if theirs != ours:
         raise InputError(
             f"{record.parent}: holds results of spavision {theirs}, this is {ours}, and the two are not "
-            "mixed; choose another folder with --output"
+            "mixed; choose another folder"
         )
 
 

@@ -30,12 +30,22 @@ if TYPE_CHECKING:
     show_default=True,
     help="Format of the report; may be given several times.",
 )
+@click.option(
+    "--study",
+    type=click.Path(path_type=Path),
+    help="Results folder of spavision study: its u_input, and what each suspect can explain.",
+)
 @photo_options
 @model_options
 @experiment_option
 @results_options
 def correlate(
-    photos: Path | None, measured: Path | None, pressure_unit: str, formats: tuple[str, ...], **given: Any
+    photos: Path | None,
+    measured: Path | None,
+    pressure_unit: str,
+    formats: tuple[str, ...],
+    study: Path | None,
+    **given: Any,
 ) -> None:
     """Compare the measured with the modelled tip path.
 
@@ -52,8 +62,13 @@ def correlate(
     source = choose_source(photos, measured, given, pressure_unit=pressure_unit)
     folder = given["output"] or output.default_output("correlate", source.name)
     results = ResultsFolder(folder, force=given["force"])
+    studied = None
+    if study is not None:
+        from spavision.workflow.study_results import read_study_results
+
+        studied = read_study_results(study, crimp_ratio=source.experiment.actuator.crimp_ratio)
     side = take_measurement(source, results=results, quiet=given["quiet"])
-    comparison = compare_with_model(side, quiet=given["quiet"])
+    comparison = compare_with_model(side, quiet=given["quiet"], study=studied)
     reports = write_comparison(results, comparison, formats=tuple(dict.fromkeys(formats)))
     places = [results.path / name for name in reports]
     _report(comparison, places, as_json=given["as_json"], quiet=given["quiet"])

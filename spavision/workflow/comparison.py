@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from spavision.correlate.summary import Summary
     from spavision.model.simulate import Simulation
 
+    from .study_results import StudyResults
+
 
 @dataclass(frozen=True)
 class Comparison:
@@ -31,6 +33,7 @@ class Comparison:
     simulation: Simulation
     summary: Summary
     shape: ShapeDiscrepancy | None
+    study: StudyResults | None = None
 
     @property
     def title(self) -> str:
@@ -42,9 +45,11 @@ class Comparison:
     def notes(self) -> tuple[str, ...]:
         """What the reader must know about either side."""
         stopped = self.simulation.stopped_at_kPa
+        studied = self.study.notes if self.study is not None else ()
         if stopped is None:
-            return self.side.notes
-        return (*self.side.notes, f"The model stopped at {stopped:g} kPa: {self.simulation.stop_reason}")
+            return (*self.side.notes, *studied)
+        stop = f"The model stopped at {stopped:g} kPa: {self.simulation.stop_reason}"
+        return (*self.side.notes, *studied, stop)
 
     def record(self) -> dict[str, Any]:
         """Return the settings and outcomes that ``run.json`` keeps."""
@@ -53,17 +58,26 @@ class Comparison:
             "experiment": self.side.source.experiment.model_dump(),
             **self.side.record,
             "simulation": simulation_record(self.simulation),
+            "study": None if self.study is None else str(self.study.folder),
             "summary": self.sentences(),
         }
 
     def sentences(self) -> list[str]:
         """Say the main findings on tip and shape, one sentence each."""
         shape = [] if self.shape is None else [self.shape.sentence()]
-        return [*self.summary.sentences(), *shape]
+        studied = () if self.study is None else self.study.findings
+        return [*self.summary.sentences(), *shape, *studied]
 
 
-def compare_with_model(side: MeasuredSide, *, quiet: bool) -> Comparison:
+def compare_with_model(side: MeasuredSide, *, quiet: bool, study: StudyResults | None = None) -> Comparison:
     """Run the model at the measured pressures and compare.
+
+    Parameters
+    ----------
+    side : MeasuredSide
+    quiet : bool
+    study : StudyResults, optional
+        Gives u_input, and what each suspect can explain.
 
     Raises
     ------
@@ -84,10 +98,13 @@ def compare_with_model(side: MeasuredSide, *, quiet: bool) -> Comparison:
             f"{side.source.place}: the pressure {highest:g} kPa lies outside the model's range of 0 to "
             f"{LARGEST_PRESSURE_KPA:g} kPa; correct it, or name its unit with --pressure-unit"
         )
-    return compare_sides(side, run_model(side.source.experiment, side.model_pressure_kPa, quiet=quiet))
+    simulation = run_model(side.source.experiment, side.model_pressure_kPa, quiet=quiet)
+    return compare_sides(side, simulation, study=study)
 
 
-def compare_sides(side: MeasuredSide, simulation: Simulation) -> Comparison:
+def compare_sides(
+    side: MeasuredSide, simulation: Simulation, *, study: StudyResults | None = None
+) -> Comparison:
     """Compare a measured path with a simulation at the pressures that both have.
 
     Raises
@@ -104,12 +121,16 @@ def compare_sides(side: MeasuredSide, simulation: Simulation) -> Comparison:
     discrepancy = compare(in_bending_axes(side.path, first_bend=first_bend), simulation.tip_path)
     modelled = discrepancy.modelled
     mesh_mm = numerical_uncertainty_mm(simulation.settings.mesh_level, modelled.ux_mm, modelled.uy_mm)
-    known = ModelUncertainty(mesh_x_mm=mesh_mm, mesh_y_mm=mesh_mm)
+    inputs_mm = (None, None) if study is None else study.inputs_mm(discrepancy.pressure_kPa)
+    known = ModelUncertainty(
+        mesh_x_mm=mesh_mm, mesh_y_mm=mesh_mm, inputs_x_mm=inputs_mm[0], inputs_y_mm=inputs_mm[1]
+    )
     return Comparison(
         side,
         simulation,
         summarise(discrepancy, known),
         compare_shapes(side.measurement, simulation, first_bend=first_bend),
+        study,
     )
 
 

@@ -53,12 +53,17 @@ def report_content(
         tables = {"Bend angle and centre line": _shape_rows(comparison.shape), **tables}
     if measurement is not None:
         tables = {"Uncertainty budget of the readings": measurement.budget_rows(), **tables}
+    pictures = [montage] if montage is not None else []
+    if comparison.study is not None and comparison.study.attribution:
+        tables = {"What each suspect can explain of the discrepancy": comparison.study.rows(), **tables}
+        chart = comparison.study.picture()
+        pictures = [chart, *pictures] if chart is not None else pictures
     return ReportContent(
         title=comparison.title,
         summary=comparison.summary,
         sentences=comparison.sentences(),
         frames=_frames(comparison, photos),
-        pictures=[montage] if montage is not None else [],
+        pictures=pictures,
         notes=comparison.notes,
         tables=tables,
         record={**comparison.record(), "versions": versions()},
@@ -109,7 +114,16 @@ def _shape_rows(shape: ShapeDiscrepancy) -> list[list[str]]:
 
 
 def _validation_rows(summary: Summary) -> list[list[str]]:
-    header = ["pressure kPa", "component", "error mm", "u_val mm", "u_num mm", "u_D mm", "verdict"]
+    header = [
+        "pressure kPa",
+        "component",
+        "error mm",
+        "u_val mm",
+        "u_num mm",
+        "u_input mm",
+        "u_D mm",
+        "verdict",
+    ]
     rows = [header]
     for row in np.flatnonzero(summary.discrepancy.is_common):
         for name, validation in (("x", summary.validation_x), ("y", summary.validation_y)):
@@ -117,6 +131,7 @@ def _validation_rows(summary: Summary) -> list[list[str]]:
                 validation.error_mm[row],
                 validation.u_val_mm[row],
                 validation.u_num_mm[row],
+                validation.u_input_mm[row],
                 validation.u_data_mm[row],
             )
             verdict = "differ significantly" if validation.is_significant[row] else "within 2 u_val"

@@ -1,0 +1,147 @@
+"""``spavision study`` from the command line, with the reduced model at a few low pressures."""
+
+from __future__ import annotations
+
+import csv
+import json
+import tomllib
+
+import numpy as np
+import pytest
+
+from spavision.cli.studies.starter import STARTER
+from spavision.correlate.study.study_file import StudyFile
+from spavision.workflow.study_results import read_study_results
+
+STUDY = """
+[study]
+crimp_ratio = 0.2
+cases = 14
+pressures_kPa = [0, 10]
+[suspects.body_stiffness]
+distribution = "normal"
+sigma = 0.1
+[suspects.side_wall_mm]
+distribution = "uniform"
+plus_minus = 0.2
+[suspects.standoff_mm]
+distribution = "normal"
+mean = 20
+sigma = 1
+[update]
+parameters = ["body_stiffness"]
+steps = 200
+"""
+
+
+@pytest.fixture
+def study_file(tmp_path):
+    (tmp_path / "study.toml").write_text(STUDY, encoding="utf-8")
+    (tmp_path / "measured.csv").write_text(
+        "pressure_kPa,ux_mm,uy_mm,sigma_ux_mm,sigma_uy_mm\n0,0,0,.05,.05\n5,2.3,.9,.05,.05\n10,5.2,1.8,.05,.05\n"
+    )
+    return tmp_path / "study.toml"
+
+
+def table(path):
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_starter_is_a_valid_study_file(spavision):
+    content = tomllib.loads(spavision("study", "starter").out)
+    assert content == tomllib.loads(STARTER)
+    assert len(StudyFile.model_validate(content).suspects) == 15
+
+
+def test_study_alone_explains_itself(spavision):
+    assert "spavision study starter > study.toml" in spavision("study").out
+
+
+def test_tolerance_and_attribution_share_a_folder_that_correlate_reads(spavision, study_file, tmp_path):
+    out, measured = str(tmp_path / "out"), str(tmp_path / "measured.csv")
+    band = json.loads(spavision("study", "tolerance", str(study_file), "-o", out, "--json").out)["band"]
+    assert band[0]["u_input_ux_mm"] == 0.0 < band[1]["u_input_ux_mm"]
+    assert [row["n_reached"] for row in band] == [14, 14]
+    spavision(
+        "study",
+        "attribute",
+        str(study_file),
+        "--measured",
+        measured,
+        "-o",
+        out,
+        "--full-runs",
+        "0",
+        "--quiet",
+    )
+    rows = {row["suspect"]: row for row in table(tmp_path / "out/attribute/attribution.csv")}
+    assert float(rows["body_stiffness"]["best"]) < 0.95
+    assert float(rows["body_stiffness"]["explained"]) > 0.3
+    assert float(rows["standoff_mm"]["explained"]) < 0.05
+    assert len(table(tmp_path / "out/tolerance/cases.csv")) == 14
+    known = read_study_results(tmp_path / "out", crimp_ratio=0.2)
+    assert known.inputs_mm(np.array([10.0]))[0] == pytest.approx([band[1]["u_input_ux_mm"]], rel=1e-6)
+    assert known.inputs_mm(np.array([5.0, 99.0]))[0].tolist() == pytest.approx(
+        [0.5 * band[1]["u_input_ux_mm"], 0.0], rel=1e-6
+    )
+    assert sorted(row[0] for row in known.rows()[1:]) == ["body_stiffness", "side_wall_mm", "standoff_mm"]
+    assert known.chart is not None
+    other = spavision(
+        "correlate", "--measured", measured, "--crimp", "0.3", "--study", out, "-o", str(tmp_path / "no")
+    )  # fmt: skip
+    assert other.is_one_sentence_about("is of crimp ratio 0.2, the comparison of 0.3")
+
+
+def test_update_finds_the_softer_body_and_checks_elsewhere(spavision, study_file, tmp_path):
+    with study_file.open("a", encoding="utf-8") as file:
+        file.write(
+            '[[measured]]\npath = "measured.csv"\n[[measured]]\npath = "measured.csv"\ncrimp_ratio = 0.3\n'
+        )
+    out = tmp_path / "out"
+    spavision("study", "update", str(study_file), "-o", str(out), "--full-runs", "0", "--quiet")
+    (parameter,) = table(out / "update/update.csv")
+    assert 0.75 < float(parameter["least_squares"]) < 0.95
+    assert float(parameter["low"]) < float(parameter["median"]) < float(parameter["high"])
+    fitted, check = table(out / "update/checks.csv")
+    assert float(fitted["rmse_updated_mm"]) < float(fitted["rmse_nominal_mm"])
+    assert [fitted["role"], check["role"]] == ["fitted", "check"]
+    updated = tomllib.loads((out / "update/updated.toml").read_text(encoding="utf-8"))
+    assert updated["actuator"]["body_stiffness"] == pytest.approx(float(parameter["least_squares"]), rel=1e-4)
+
+
+def test_sweep_keeps_the_failed_case_with_its_reason(spavision, tmp_path):
+    done = spavision(
+        "study",
+        "sweep",
+        "--crimp",
+        "0.2",
+        "--vary",
+        "side_wall_mm=2.5,8",
+        "-o",
+        str(tmp_path / "out"),
+        "--json",
+    )
+    thin, thick = json.loads(done.out)["cases"]
+    assert [thin["status"], thick["status"]] == ["ok", "failed"]
+    assert "width_mm is 15 mm" in thick["reason"]
+    assert "failed: geometry: 2 × side_wall_mm is 16 mm" in done.err
+    assert [row["side_wall_mm"] for row in table(tmp_path / "out/sweep/failed.csv")] == ["8"]
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("[suspects.side_wal_mm]\ndistribution='uniform'\nplus_minus=1", "did you mean side_wall_mm"),
+        ("[suspects.side_wall_mm]\ndistribution='uniform'", "needs plus_minus, or low and high"),
+        ("[suspects.side_wall_mm]\ndistribution='uniform'\nplusminus=1", "did you mean plus_minus?"),
+        ("[suspects.body_material]\ndistribution='normal'\nsigma=1", 'use distribution = "choice"'),
+        ("[suspects.roof_mm]\ndistribution='uniform'\nlow=3\nhigh=4", "outside 3 to 4"),
+        ("[study]\nmodel='huge'", "[study] model"),
+        ("", "names no suspect"),
+    ],
+)
+def test_each_defect_of_a_study_file_is_told_in_one_sentence(spavision, tmp_path, text, sentence):
+    (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+    done = spavision("study", "tolerance", str(tmp_path / "study.toml"), "-o", str(tmp_path / "out"))
+    assert done.is_one_sentence_about(sentence)

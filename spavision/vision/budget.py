@@ -15,8 +15,8 @@ from .scale import EXIF_SIGMA, CameraFit
 from .settings import TrackSettings
 
 RADIUS_SIGMA = 0.03
-"""Relative uncertainty of the radius that a partly hidden rim is fitted with: half contrast beside a cover lies
-elsewhere than on the whole rims that the radius is taken from."""
+"""Relative uncertainty of the radius that a partly hidden rim is fitted with: beside a cover, half contrast
+lies elsewhere than on the whole rims that the radius is taken from."""
 
 RIM_FLOOR_PX = 0.01
 """Systematic part of a rim's centre: shading, pixel grid, compression."""

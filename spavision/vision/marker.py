@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 
-from .arrays import FloatArray, FloatImage, RgbImage, blur
+from .arrays import FloatArray, FloatImage, RgbImage, blur, shrunk_place
 from .board import BoardView
 from .camera import project, to_plane
 from .circle import Circle
@@ -24,6 +24,14 @@ DIAMETER_RANGE_SQUARES = (0.7, 5.0)
 MOST_CANDIDATES = 12
 
 OUTLINE_POINTS = 96
+
+SPOT_PITCH_PX = 12.0
+"""Squares of this size suffice to see where spots are; larger photographs are scaled down for it."""
+
+SURROUNDINGS_RADII = 4.0
+"""Half width of the part of a photograph in which a spot is measured, in its approximate radius."""
+
+SMOOTHING_PX = 0.6
 
 WHOLE = 0.8
 """Share of the rim above which a disc is fitted to its pixels."""
@@ -97,14 +105,15 @@ def find_candidates(
         low, high = 0.45 * diameter_squares, 1.8 * diameter_squares
     left, top, right, bottom = _region(board, rgb.shape)
     part = rgb[top:bottom, left:right]
-    strength = colour_strength(part, white_balance(rgb, board), colour)
-    strength = blur(strength, max(0.12 * low * board.pitch_px, 0.7))
-    smooth = blur(part.astype(np.float32), 0.6)
-    spots = _spots(
-        part, strength, FAINTEST_SHARE * colour_chroma(colour), low * board.pitch_px, high * board.pitch_px
+    factor = min(1.0, SPOT_PITCH_PX / board.pitch_px)
+    pitch = factor * board.pitch_px
+    small = (
+        part if factor == 1.0 else cv2.resize(part, None, fx=factor, fy=factor, interpolation=cv2.INTER_AREA)
     )
+    strength = blur(colour_strength(small, white_balance(rgb, board), colour), max(0.12 * low * pitch, 0.7))
+    spots = _spots(small, strength, FAINTEST_SHARE * colour_chroma(colour), low * pitch, high * pitch)
     offset = np.array([left, top], dtype=float)
-    found = [_examine(smooth, board, spot, offset) for spot in spots[:MOST_CANDIDATES]]
+    found = [_examine(rgb, board, _enlarged(spot, factor, offset)) for spot in spots[:MOST_CANDIDATES]]
     return tuple(
         c for c in found if c is not None and low < 2.0 * c.radius_squares < high and not _is_square(c)
     )
@@ -156,13 +165,24 @@ def _spots(
     return spots
 
 
-def _examine(smooth: FloatImage, board: BoardView, spot: _Spot, offset: FloatArray) -> Candidate | None:
+def _enlarged(spot: _Spot, factor: float, offset: FloatArray) -> _Spot:
+    """Return a spot of a part that was scaled down, in the photograph's own pixels."""
+    centre = shrunk_place(spot.centre_px, 1.0 / factor) + offset
+    return replace(spot, centre_px=centre, radius_px=spot.radius_px / factor)
+
+
+def _examine(rgb: RgbImage, board: BoardView, spot: _Spot) -> Candidate | None:
     """Measure a spot's rim; None when it has none."""
-    local = _shifted(board, offset)
-    place = to_plane(local.camera, local.pose, spot.centre_px[None])
+    reach = SURROUNDINGS_RADII * spot.radius_px + 4.0
+    left, top = np.maximum(np.floor(spot.centre_px - reach), 0).astype(int)
+    right, bottom = np.ceil(spot.centre_px + reach).astype(int) + 1
+    smooth = blur(rgb[top:bottom, left:right].astype(np.float32), SMOOTHING_PX)
+    offset = np.array([left, top], dtype=float)
+    local, centre = _shifted(board, offset), spot.centre_px - offset
+    place = to_plane(local.camera, local.pose, centre[None])
     across = project(local.camera, local.pose, place + np.array([[1.0, 0.0]]))
-    scale = float(np.linalg.norm(across[0] - spot.centre_px))
-    found = find_rim(smooth, local, spot.centre_px, spot.radius_px / scale, spot.colour)
+    scale = float(np.linalg.norm(across[0] - centre))
+    found = find_rim(smooth, local, centre, spot.radius_px / scale, spot.colour)
     if found is None:
         return None
     rim, circle = found

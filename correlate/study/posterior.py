@@ -54,8 +54,9 @@ class Misfit:
 
     @property
     def _has_reading(self) -> np.ndarray[tuple[int, int], np.dtype[np.bool_]]:
-        moves = np.ptp(self.target.nominal_mm, axis=0, keepdims=True) > 0.0
-        return np.isfinite(self.target.measured_mm - self.target.nominal_mm) & moves
+        # The reference, zero by definition on either side, tells nothing.
+        is_reference = np.all(self.target.nominal_mm == 0.0, axis=0)
+        return np.isfinite(self.target.measured_mm - self.target.nominal_mm) & ~is_reference
 
 
 def best_point(misfit: Misfit, *, seed: int) -> FloatArray:

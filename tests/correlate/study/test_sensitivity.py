@@ -1,0 +1,85 @@
+"""Sobol indices against a published function, bands against arithmetic, set-up factors against optics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from spavision.correlate.study.band import band
+from spavision.correlate.study.case import CaseResult
+from spavision.correlate.study.explanation import Target, explain_alone, reading_factor
+from spavision.correlate.study.sampling import draw_shares
+from spavision.correlate.study.sensitivity import sobol_indices
+from spavision.correlate.study.suspects import Suspect
+from spavision.experiment import Experiment
+from spavision.tip_path import FloatArray, TipPath
+
+
+def number(name: str, low: float, high: float, nominal: float = 0.0) -> Suspect:
+    return Suspect(name, "actuator", nominal, "", stats.uniform(low, high - low))
+
+
+@dataclass(frozen=True)
+class Formula:
+    """Stands in for an emulator: x by a formula of the suspects' values, y does not move."""
+
+    suspects: tuple[Suspect, ...]
+    formula: object
+
+    def predict(self, points: FloatArray) -> FloatArray:
+        values = [one.distribution.ppf(shares) for one, shares in zip(self.suspects, points.T, strict=True)]
+        ux = self.formula(*values)  # type: ignore[operator]
+        return np.stack([ux, np.zeros_like(ux)], axis=1)[:, :, None]
+
+
+def test_sobol_indices_of_the_ishigami_function() -> None:
+    """Ishigami and Homma (1990), a = 7, b = 0.1: S = 0.3139, 0.4424, 0; T = 0.5576, 0.4424, 0.2437."""
+    suspects = tuple(number(name, -np.pi, np.pi) for name in "abc")
+    ishigami = Formula(suspects, lambda x, y, z: np.sin(x) + 7 * np.sin(y) ** 2 + 0.1 * z**4 * np.sin(x))
+    found = sobol_indices(ishigami, np.array([10.0]), seed=1)  # type: ignore[arg-type]
+    np.testing.assert_allclose(found.first[:, 0, 0], [0.3139, 0.4424, 0.0], atol=0.03)
+    np.testing.assert_allclose(found.total[:, 0, 0], [0.5576, 0.4424, 0.2437], atol=0.03)
+    assert np.isnan(found.total[:, 1, 0]).all()
+
+
+def test_band_counts_the_cases_that_did_not_get_there() -> None:
+    """Of 0, 1, 2, 3, 4 the standard deviation is √2.5; where one case is missing, of 0 to 3, √(5/3)."""
+    nan = float("nan")
+    results = [
+        CaseResult("ok", "", (0.0, float(k), float(k) if k < 4 else nan), (0.0, 0.0, 0.0), 0.0)
+        for k in range(5)
+    ]
+    flat = np.zeros(3)
+    found = band(TipPath(np.array([0.0, 5.0, 10.0]), flat, flat, flat, flat), results)
+    np.testing.assert_allclose(found.sigma_mm[0], [0.0, np.sqrt(2.5), np.sqrt(5.0 / 3.0)])
+    assert found.n_reached.tolist() == [5, 5, 4]
+    assert not found.is_whole
+    assert found.table()["median_ux_mm"].tolist() == [0.0, 2.0, 1.5]
+
+
+def test_stand_off_moves_the_reading_as_similar_triangles_say() -> None:
+    """A reading is (D − h)/D of the board's: at D = 750, h from 20 to 25 takes it to 725/730."""
+    experiment = Experiment().with_options({"camera": {"standoff_mm": 20.0, "distance_mm": 750.0}})
+    assert reading_factor(experiment, {"standoff_mm": 25.0}) == pytest.approx(725.0 / 730.0)
+    assert reading_factor(experiment, {"scale": 1.01}) == pytest.approx(1.01)
+
+
+def test_suspect_explains_what_lies_within_its_interval() -> None:
+    """Model a·p against 3·p: a from 0 to 4 explains all of it; from 0 to 2, nominal 1, up to 97.5 % of 2."""
+    target = Target(np.array([[3.0], [0.0]]), np.array([[1.0], [0.0]]), Experiment())
+    for high, left in ((4.0, 0.0), (2.0, 3.0 - 1.95)):
+        slope = number("a", 0.0, high, nominal=1.0)
+        model = Formula((slope,), lambda a: a)
+        found = explain_alone(model, target, slope, nominal=np.array([1.0 / high]))  # type: ignore[arg-type]
+        assert found.rmse_mm == pytest.approx(left, abs=0.05)
+        assert found.nominal_rmse_mm == pytest.approx(2.0)
+
+
+def test_sobol_sequence_is_the_same_again_and_even() -> None:
+    points = draw_shares(3, 64, sampling="sobol", seed=5)
+    np.testing.assert_array_equal(points, draw_shares(3, 64, sampling="sobol", seed=5))
+    # A property of the sequence: each of 64 equal slices of an axis holds one of 64 points.
+    assert [sorted((64 * column).astype(int).tolist()) for column in points.T] == [list(range(64))] * 3

@@ -6,6 +6,7 @@ import hashlib
 import json
 import os
 import platform
+import shutil
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
@@ -16,6 +17,7 @@ from typing import Any
 from spavision.errors import InputError
 
 RECORD_NAME = "run.json"
+UNFINISHED_NAME = ".unfinished"
 
 PACKAGES_THAT_COMPUTE = (
     "spavision",
@@ -55,7 +57,7 @@ class ResultsFolder:
         self._inputs: dict[Path, str] = {}
         if path.exists() and not path.is_dir():
             raise InputError(f"--output {path}: is a file, expected a folder; choose another name")
-        if path.is_dir() and any(path.iterdir()) and not force:
+        if path.is_dir() and any(each.name != UNFINISHED_NAME for each in path.iterdir()) and not force:
             raise InputError(
                 f"--output {path}: holds files already; choose another folder or add --force to replace them"
             )
@@ -70,6 +72,17 @@ class ResultsFolder:
             raise InputError(
                 f"--output {self.path}: cannot be written to ({error.strerror}); choose another folder"
             ) from error
+
+    @property
+    def unfinished(self) -> Path:
+        """Folder for what an interrupted run leaves to the next; it goes when the record is written."""
+        return self.path / UNFINISHED_NAME
+
+    def forget_unfinished(self) -> None:
+        """Remove what an interrupted run left, and the results folder where it holds nothing else."""
+        shutil.rmtree(self.unfinished, ignore_errors=True)
+        if self.path.is_dir() and not any(self.path.iterdir()):
+            self.path.rmdir()
 
     def write(self, name: str, writer: Callable[[Path], object]) -> Path:
         """Write one file through ``writer``, which gets a temporary path with the same ending.
@@ -125,6 +138,7 @@ class ResultsFolder:
             "versions": versions(),
             "files": sorted({*self._written, RECORD_NAME}),
         }
+        self.forget_unfinished()
         return self.write_text(RECORD_NAME, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
 
     def _inputs_by_name(self) -> dict[str, str]:

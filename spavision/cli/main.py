@@ -70,7 +70,11 @@ def run() -> NoReturn:
     except InputError as error:
         _stop(f"spavision: {error}", 2)
     except click.exceptions.Abort:
-        _stop("spavision: interrupted; the files written so far are whole", 130)
+        _stop(
+            "spavision: interrupted; the files written so far are whole, and the same command goes on without "
+            "measuring the same photos again",
+            130,
+        )
     except click.ClickException as error:
         error.show()
         sys.exit(error.exit_code)

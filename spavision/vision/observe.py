@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -85,6 +86,16 @@ class Observation:
     def set_aside(self, problem: str) -> Observation:
         """Return the photograph without what was measured in it, and why."""
         return Observation(self.name, problem, self.width, self.height, self.focal_px)
+
+
+class ObservationMemory(Protocol):
+    """Keeps observations from an interrupted run for the next."""
+
+    def recall(self, photo: Path) -> Observation | None:
+        """Return what is kept of a photo, if anything."""
+
+    def keep(self, photo: Path, observation: Observation) -> None:
+        """Keep an observation."""
 
 
 def observe(

@@ -22,7 +22,7 @@ from .corrections import (
 )
 from .evidence import Evidence
 from .notes import correction_text, track_notes
-from .observe import MarkerLook, Observation, observe
+from .observe import MarkerLook, Observation, ObservationMemory, observe
 from .orientation import set_aside_turned
 from .places import Places, find_places
 from .readings import budget_of, displacements_mm, reading, statuses
@@ -42,6 +42,7 @@ def track(
     settings: TrackSettings,
     corrections: Corrections = NO_CORRECTIONS,
     progress: Callable[[str], None] | None = None,
+    memory: ObservationMemory | None = None,
 ) -> Track:
     """Measure the tip's displacement in a series of photographs.
 
@@ -57,6 +58,8 @@ def track(
         What a person says of single photographs, by file name.
     progress : callable, optional
         Called with a photograph's name after it has been measured.
+    memory : ObservationMemory, optional
+        What an interrupted run has measured already, and where this one's photographs are kept.
 
     Raises
     ------
@@ -64,7 +67,7 @@ def track(
         If no photograph is readable, none shows a board, none shows a marker, or a correction does not fit.
     """
     refuse_unknown_photos(corrections, [path.name for path in paths])
-    observations = observe_photos(paths, settings=settings, progress=progress)
+    observations = observe_photos(paths, settings=settings, progress=progress, memory=memory)
     return track_observations(observations, pressures_kPa, settings=settings, corrections=corrections)
 
 
@@ -116,21 +119,31 @@ def _in_one_lattice(observations: list[Observation]) -> tuple[list[Observation],
 
 
 def observe_photos(
-    paths: Sequence[Path], *, settings: TrackSettings, progress: Callable[[str], None] | None = None
+    paths: Sequence[Path],
+    *,
+    settings: TrackSettings,
+    progress: Callable[[str], None] | None = None,
+    memory: ObservationMemory | None = None,
 ) -> list[Observation]:
     """Measure board and marker candidates of each photograph on its own, several at a time."""
     tip = _look(settings.marker_colour, settings.marker_diameter_mm, settings)
     base = None
     if settings.base_marker_colour is not None:
         base = _look(settings.base_marker_colour, settings.base_diameter_mm, settings)
+
+    def observed(path: Path) -> Observation:
+        found = None if memory is None else memory.recall(path)
+        if found is None:
+            found = observe(path, tip=tip, base=base, largest_megapixels=settings.largest_megapixels)
+            if memory is not None:
+                memory.keep(path, found)
+        return found
+
     workers = settings.workers or os.cpu_count() or 1
     observations = []
     # Nearly all the time is spent in OpenCV and NumPy, which let other threads run meanwhile.
     with ThreadPoolExecutor(max_workers=max(1, min(workers, len(paths)))) as pool:
-        for observation in pool.map(
-            lambda path: observe(path, tip=tip, base=base, largest_megapixels=settings.largest_megapixels),
-            paths,
-        ):
+        for observation in pool.map(observed, paths):
             observations.append(observation)
             if progress is not None:
                 progress(observation.name)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from spavision.errors import InputError
 from spavision.experiment import Experiment
 from spavision.results import ResultsFolder
 from spavision.table_text import csv_text, number
@@ -90,6 +91,8 @@ def measure(place: Path, experiment: Experiment, *, results: ResultsFolder, quie
     """
     from spavision.vision.track import track
 
+    from .observation_store import ObservationStore
+
     series = photo_series(place, experiment, results=results)
     done = 0
     with progress_bar("photos", total=len(series.photos), quiet=quiet) as advance:
@@ -99,13 +102,18 @@ def measure(place: Path, experiment: Experiment, *, results: ResultsFolder, quie
             done += 1
             advance(name, done)
 
-        found = track(
-            series.photos,
-            series.pressure_kPa,
-            settings=series.settings,
-            corrections=series.corrections,
-            progress=progress,
-        )
+        try:
+            found = track(
+                series.photos,
+                series.pressure_kPa,
+                settings=series.settings,
+                corrections=series.corrections,
+                progress=progress,
+                memory=ObservationStore(results.unfinished, series.settings),
+            )
+        except InputError:
+            results.forget_unfinished()
+            raise
     actuator = experiment.actuator
     shapes = measure_shapes(found, series, actuator, quiet=quiet)
     return Measurement(found, series, shapes, actuator.void_count * actuator.pitch_mm)

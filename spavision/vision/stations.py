@@ -9,7 +9,7 @@ import numpy as np
 from .arrays import FloatArray, IntArray
 from .board import BoardView
 from .observe import Observation
-from .registration import register, same_position
+from .registration import SMALLEST_CERTAINTY, Registration, register, same_position
 
 
 @dataclass(frozen=True)
@@ -48,11 +48,9 @@ def group_stations(observations: list[Observation], reference: int) -> Stations:
     number = np.full(n, -1, dtype=np.intp)
     shift, certainty = np.zeros((n, 2), dtype=np.intp), np.zeros(n)
     groups: list[_Group] = []
-    for photo in [reference, *(k for k in range(n) if k != reference)]:
+    for photo, registration in _registrations(observations, reference).items():
         board = observations[photo].board
-        if board is None:
-            continue
-        registration = register(observations[reference], observations[photo])
+        assert board is not None
         shift[photo], certainty[photo] = registration.shift, registration.certainty
         for k, group in enumerate(groups):
             if same_position(group.board, board, shift[photo] - group.shift):
@@ -64,6 +62,26 @@ def group_stations(observations: list[Observation], reference: int) -> Stations:
             groups.append(_Group(board, shift[photo], [photo]))
     merged = [_mean_corners(observations, group.members, shift) for group in groups]
     return Stations(number, shift, certainty, tuple(m[0] for m in merged), tuple(m[1] for m in merged))
+
+
+def _registrations(observations: list[Observation], reference: int) -> dict[int, Registration]:
+    """Register every photograph with a board to the reference, the reference first.
+
+    Where that is not certain, a photograph in which the actuator hangs more alike may tell.
+    """
+    seen = [k for k, o in enumerate(observations) if o.board is not None]
+    found = {
+        k: register(observations[reference], observations[k])
+        for k in sorted(seen, key=lambda k: (k != reference, k))
+    }
+    certain = {k: r for k, r in found.items() if r.certainty >= SMALLEST_CERTAINTY}
+    for photo in sorted(found.keys() - certain.keys()):
+        for between, first in certain.items():
+            second = register(observations[between], observations[photo])
+            certainty = min(first.certainty, second.certainty)
+            if certainty > found[photo].certainty:
+                found[photo] = Registration(first.shift + second.shift, certainty)
+    return found
 
 
 def _mean_corners(

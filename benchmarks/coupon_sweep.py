@@ -18,7 +18,9 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
+from spavision.correlate.model_inputs import model_inputs
 from spavision.errors import InputError
+from spavision.experiment import Experiment
 from spavision.model.coupon.cell import CellSettings
 from spavision.model.coupon.coupon import Coupon, CouponSettings, pull_coupon
 from spavision.model.coupon.geometry import CouponGeometry
@@ -27,6 +29,8 @@ from spavision.model.fitting.fit import FitSettings, fit_law
 from spavision.model.fitting.transition import transition_or_none
 from spavision.model.materials.curves import UNIAXIAL
 from spavision.model.materials.library import find_material
+from spavision.model.outputs import design_outputs
+from spavision.model.simulate import simulate
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "materials.md"
@@ -41,6 +45,16 @@ PUBLISHED = {
     "mooney3": ("Mooney-Rivlin, 3 terms", "0.592", "–"),
 }
 """Law, R² and error of the transition strain (article, section "Modeling")."""
+
+PUBLISHED_EXTREMA = ("17.5, pressure not told", "71.25 at 40 kPa")
+"""First extremum of x in mm at crimp ratios 0.2 and 0.3 (article, section "Results and Discussion")."""
+
+COMPOSITES: dict[str, dict[str, Any]] = {
+    "slack-fibre, as stated": {},
+    "ogden, by coupon": {"law": "ogden"},
+    "resolved": {"law": "resolved"},
+    "resolved, fold radius 0.5 mm": {"law": "resolved", "coupon_fold_radius_mm": 0.5},
+}
 
 RADII_MM = (0.0, 0.25, 0.5, 0.75)
 SAMPLINGS = (0.0025, 0.005, 0.01, 0.02)
@@ -160,6 +174,28 @@ def ogden_sets() -> str:
     return table(["crimp ratio", "parameters, μ in MPa", "G0 kPa", "R²"], rows)
 
 
+def ramps() -> str:
+    """First extremum of the actuator's tip with each composite, draft mesh, against the article's tests."""
+    rows = [["article, test", *PUBLISHED_EXTREMA]]
+    for title, composite in COMPOSITES.items():
+        cells = [title]
+        for ratio in (0.2, 0.3):
+            content = {"actuator": {"crimp_ratio": ratio}, "composite": composite, "model": {"mesh": "draft"}}
+            inputs = model_inputs(Experiment.model_validate(content))
+            found = simulate(
+                inputs.geometry,
+                crimp_ratio=ratio,
+                pressures_kPa=np.arange(0.0, 66.0, 5.0),
+                settings=inputs.settings,
+            )
+            outputs = design_outputs(found)
+            turn = outputs.mode_change_kPa
+            end = "no turn up to 65 kPa" if turn is None else f"at {turn:.0f} kPa"
+            cells.append(f"{outputs.first_extremum_mm:.0f} {end}")
+        rows.append(cells)
+    return table(["composite", "x of the first extremum at 0.2, mm", "at 0.3, mm"], rows)
+
+
 def merit(coupon: Coupon, law: str, allow_unstable: bool) -> str:
     measured = coupon.transition()
     # the curve is read as a uniaxial test, as the article does
@@ -218,6 +254,7 @@ def main() -> None:
         "{{RADIUS}}": radius_and_sampling(),
         "{{LAWS}}": comparison(),
         "{{OGDEN}}": ogden_sets(),
+        "{{RAMPS}}": ramps(),
     }
     page = TEXT.read_text(encoding="utf-8")
     for mark, text in parts.items():

@@ -36,6 +36,9 @@ if TYPE_CHECKING:
     "whole boards as in OpenCV's calibration sample with its 11 px window, comparable with calibrations made "
     "by it; auto, opencv where --corners names a sparse board and the photo shows all of it, else lattice.",
 )
+@click.option(
+    "--largest-megapixels", type=float, default=200.0, show_default=True, help="Refuse larger photos."
+)
 @results_options
 def calibrate(photos: Path, **given: Any) -> None:
     """Calibrate a camera from PHOTOS, a folder of 10 to 20 photographs of one flat checkerboard.
@@ -83,6 +86,7 @@ def _settings(given: dict[str, Any]) -> CalibrationSettings:
         corners=None if given["corners"] is None else _corners(given["corners"]),
         square_mm=given["square_mm"],
         finder=given["finder"],
+        largest_megapixels=given["largest_megapixels"],
         model=LensModel(**{name: given[name] for name in names}),
     )
 

@@ -71,8 +71,8 @@ def run() -> NoReturn:
         _stop(f"spavision: {error}", 2)
     except click.exceptions.Abort:
         _stop(
-            "spavision: interrupted; the files written so far are whole, and the same command goes on without "
-            "measuring the same photos again",
+            "spavision: interrupted; the files written so far are whole, and the same command goes on "
+            "without measuring the same photos again",
             130,
         )
     except click.ClickException as error:

@@ -106,7 +106,7 @@ def _search_all(
 
 def _search(path: Path, settings: CalibrationSettings) -> _Found:
     try:
-        gray = read_photo(path).gray
+        gray = read_photo(path, largest_megapixels=settings.largest_megapixels).gray
     except InputError as error:
         return _Found(path.name, None, None, str(error))
     size = (gray.shape[1], gray.shape[0])

@@ -13,6 +13,7 @@ from .bundle import LensModel
 from .calibration_corners import BoardCorners
 from .camera import Camera, Pose
 from .coverage import Coverage
+from .photos import LARGEST_MEGAPIXELS
 
 FINDERS = ("auto", "lattice", "opencv")
 
@@ -33,16 +34,23 @@ class CalibrationSettings:
         ``opencv`` where ``corners`` names a sparse board and the photo shows all of it, else ``lattice``.
     model : LensModel
         Which parameters are free.
+    largest_megapixels : float
+        Larger photographs are not decoded.
     """
 
     corners: tuple[int, int] | None = None
     square_mm: float = 2.5
     finder: str = "auto"
     model: LensModel = field(default_factory=LensModel)
+    largest_megapixels: float = LARGEST_MEGAPIXELS
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.square_mm) and self.square_mm > 0):
             raise InputError(f"--square-mm is {self.square_mm:g}; expected a length above 0")
+        if not (np.isfinite(self.largest_megapixels) and self.largest_megapixels > 0):
+            raise InputError(
+                f"--largest-megapixels is {self.largest_megapixels:g}; expected a number above 0, such as 200"
+            )
         if self.corners is not None and not 3 <= min(self.corners) <= max(self.corners) <= 1000:
             raise InputError(
                 f"--corners is {self.corners[0]}x{self.corners[1]}; expected inner corners, 3 to 1000 a "

@@ -98,8 +98,8 @@ def read_photo(path: Path, *, largest_megapixels: float = LARGEST_MEGAPIXELS) ->
             width, height = image.size
             if width * height > largest_megapixels * 1e6:
                 raise InputError(
-                    f"{path.name} has {width * height / 1e6:.0f} megapixels, more than the "
-                    f"{largest_megapixels:g} allowed; scale it down first"
+                    f"{path.name} has {width * height / 1e6:.3g} megapixels, more than the "
+                    f"{largest_megapixels:g} allowed; scale it down, or raise --largest-megapixels"
                 )
             exif = image.getexif()
             deep = _deep_pixels(path, image)

@@ -16,7 +16,7 @@ from spavision.vision.observe import Observation
 from spavision.vision.settings import TrackSettings
 from spavision.vision.track import observe_photos, track_observations
 
-DRAWS = 8
+DRAWS = 4
 """Set-ups told to the tracker, each a little wrong, from which the coverage of its intervals is found."""
 
 WIDTH_95 = 1.96

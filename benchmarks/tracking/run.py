@@ -2,23 +2,22 @@
 
 Run: python benchmarks/tracking/run.py [SET ...] [--seeds N ...] [--large] [--cache FOLDER] [--output FOLDER]
 
-Rendering takes far longer than tracking: give a cache folder to run again quickly. calib-targets takes part
-where it is installed.
+Rendering takes far longer than tracking: give a cache folder to run again quickly. Tables are saved set by
+set; rows of sets that are not run again stay.
 """
 
 from __future__ import annotations
 
 import argparse
-import importlib.util
 import tempfile
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 from measure import SetScore, measure
 from peers import PEERS, measure_peer
 from scenes import BenchmarkSet, benchmark_sets
-from truth import rendered
+from tables import RESULTS, page, save_rows
+from truth import SetTruth, rendered
 
 PEER_PHOTO = 0
 
@@ -29,29 +28,21 @@ def main() -> None:
     parser.add_argument("sets", nargs="*", help="names of sets; all if none is given")
     parser.add_argument("--seeds", type=int, nargs="+", default=[1], help="seeds of each set")
     parser.add_argument("--large", action="store_true", help="sets of very large photos too")
-    parser.add_argument("--no-peers", action="store_true", help="leave out the other detectors")
+    parser.add_argument("--skip", choices=("tracker", "peers"), help="leave one of the two out")
     parser.add_argument("--cache", type=Path, help="folder to keep the rendered photos in")
-    parser.add_argument("--output", type=Path, help="folder to save the tables in")
+    parser.add_argument("--output", type=Path, default=RESULTS, help="folder to save the tables in")
     options = parser.parse_args()
+    options.output.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as scratch:
-        cache = options.cache or Path(scratch)
-        tracker, peers = [], []
         for benchmark in benchmark_sets(tuple(options.sets), seeds=tuple(options.seeds), large=options.large):
-            truth = rendered(benchmark, cache)
-            result = measure(benchmark, truth)
-            tracker.append((benchmark, result))
-            print(_row(benchmark, result), flush=True)
-            if not options.no_peers:
-                peers += _peer_rows(benchmark, truth)
-    tables = {"tracker": pd.DataFrame([_row(*item) for item in tracker])}
-    if peers:
-        tables["peers"] = _summary(pd.DataFrame(peers))
-    for name, table in tables.items():
-        print(f"\n{name}\n{_markdown(table)}")
-        if options.output is not None:
-            options.output.mkdir(parents=True, exist_ok=True)
-            table.to_csv(options.output / f"{name}.csv", index=False)
-    print(f"\n{_overall([result for _, result in tracker])}")
+            truth = rendered(benchmark, options.cache or Path(scratch))
+            if options.skip != "tracker":
+                row = _row(benchmark, measure(benchmark, truth))
+                print(row, flush=True)
+                save_rows(options.output / "tracker.csv", [row])
+            if options.skip != "peers":
+                save_rows(options.output / "peers.csv", _peer_rows(benchmark, truth))
+    print(page(options.output))
 
 
 def _row(benchmark: BenchmarkSet, result: SetScore) -> dict[str, object]:
@@ -81,57 +72,22 @@ def _row(benchmark: BenchmarkSet, result: SetScore) -> dict[str, object]:
     }
 
 
-def _peer_rows(benchmark: BenchmarkSet, truth) -> list[dict[str, object]]:
+def _peer_rows(benchmark: BenchmarkSet, truth: SetTruth) -> list[dict[str, object]]:
     rows = []
     for name, detector in PEERS.items():
-        if name == "calib-targets" and importlib.util.find_spec("calib_targets") is None:
-            continue
         corners, seconds = measure_peer(detector, benchmark, truth, PEER_PHOTO)
-        square_error = float((corners.errors_px**2).sum())
-        rows.append(
-            {
-                "detector": name,
-                "corners": corners.number,
-                "right": len(corners.errors_px),
-                "square error": square_error,
-                "wrong": corners.wrong,
-                "s/MP": seconds,
-            }
-        )
+        row = {
+            "set": benchmark.name,
+            "seed": benchmark.seed,
+            "detector": name,
+            "corners": corners.number,
+            "right": len(corners.errors_px),
+            "square error px2": round(float((corners.errors_px**2).sum()), 3),
+            "wrong": corners.wrong,
+            "s/MP": round(seconds, 2),
+        }
+        rows.append(row)
     return rows
-
-
-def _summary(rows: pd.DataFrame) -> pd.DataFrame:
-    """One line a detector over all sets: share of photos read, corners, rms, wrong ones, time."""
-    lines = []
-    for name, group in rows.groupby("detector", sort=False):
-        rms = np.sqrt(group["square error"].sum() / max(group["right"].sum(), 1))
-        lines.append(
-            {
-                "detector": name,
-                "photos read": f"{int((group['corners'] > 0).sum())}/{len(group)}",
-                "corners a photo": int(group["corners"].mean()),
-                "corner rms px": round(float(rms), 3) if group["right"].sum() else np.nan,
-                "wrong": int(group["wrong"].sum()),
-                "s/MP": round(float(group["s/MP"].mean()), 2),
-            }
-        )
-    return pd.DataFrame(lines)
-
-
-def _overall(results: list[SetScore]) -> str:
-    normalised = np.concatenate([result.normalised for result in results])
-    errors = np.concatenate([result.errors_mm for result in results])
-    return (
-        f"all sets: {len(errors)} readings, median {np.median(errors):.4f} mm, worst {errors.max():.4f} mm; "
-        f"the 95 % interval holds the truth in {100 * np.mean(np.abs(normalised) < 1.96):.1f} %"
-    )
-
-
-def _markdown(table: pd.DataFrame) -> str:
-    lines = ["| " + " | ".join(map(str, table.columns)) + " |", "|" + "---|" * len(table.columns)]
-    lines += ["| " + " | ".join(map(str, row)) + " |" for row in table.itertuples(index=False)]
-    return "\n".join(lines)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,6 +13,19 @@ from .observe import Observation
 
 LARGEST_PITCH_CHANGE = 0.1
 """Relative difference of the squares' size in pixels: a camera 75 mm nearer, of 750 mm."""
+
+
+LARGEST_FOCAL_CHANGE = 0.03
+"""Relative difference of the focal length that EXIF states: its rounding, and focusing, stay below."""
+
+
+@dataclass(frozen=True)
+class _Usual:
+    """What most photographs have in common: size, squares and, where EXIF tells it, focal length."""
+
+    size: tuple[int, int]
+    pitch_px: float
+    focal_px: float | None
 
 
 def set_aside_strangers(observations: list[Observation]) -> list[Observation]:
@@ -24,13 +38,20 @@ def set_aside_strangers(observations: list[Observation]) -> list[Observation]:
     if not seen:
         return observations
     size = Counter((o.width, o.height) for o in seen).most_common(1)[0][0]
-    pitch_px = float(np.median([o.board.pitch_px for o in seen if o.board and (o.width, o.height) == size]))
-    return [o.set_aside(problem) if (problem := _strangeness(o, size, pitch_px)) else o for o in observations]
+    alike = [o for o in seen if (o.width, o.height) == size]
+    focals = [o.focal_px for o in alike if o.focal_px is not None]
+    usual = _Usual(
+        size,
+        float(np.median([o.board.pitch_px for o in alike if o.board])),
+        float(np.median(focals)) if focals else None,
+    )
+    return [o.set_aside(problem) if (problem := _strangeness(o, usual)) else o for o in observations]
 
 
-def _strangeness(observation: Observation, size: tuple[int, int], pitch_px: float) -> str:
+def _strangeness(observation: Observation, usual: _Usual) -> str:
     """Return what sets a photograph apart from the others; nothing where it fits."""
     board, width, height = observation.board, observation.width, observation.height
+    size, pitch_px, focal_px = usual.size, usual.pitch_px, observation.focal_px
     if board is None:
         return observation.problem
     if (width, height) != size:
@@ -39,6 +60,11 @@ def _strangeness(observation: Observation, size: tuple[int, int], pitch_px: floa
         return (
             f"{observation.name} shows squares of {board.pitch_px:.1f} px, most photos of {pitch_px:.1f} px: "
             "it is from another set-up"
+        )
+    if usual.focal_px and focal_px and abs(focal_px / usual.focal_px - 1.0) > LARGEST_FOCAL_CHANGE:
+        return (
+            f"{observation.name} was taken at {focal_px / usual.focal_px:.2f} times the focal length of most "
+            "photos (EXIF): with another lens or zoom"
         )
     return ""
 

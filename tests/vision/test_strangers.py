@@ -1,10 +1,13 @@
 """Photographs that do not belong to the series: told, and without harm to the others."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PIL import Image
 
-from spavision.vision.track import track
+from spavision.vision.suitable import set_aside_strangers
+from spavision.vision.track import observe_photos, track
 
 from .conftest import SMALL, choose, render_set
 
@@ -43,6 +46,16 @@ def test_a_photo_with_another_board_pitch_is_told(series, tmp_path):
     other = render_set(tmp_path, choose(SQUARE_FRAME, camera={"square_px": 10.0}), (20,))
     reason = tracked_with(series, other.paths[0], 1)
     assert "px, most photos of 8.0 px: it is from another set-up" in reason
+
+
+def test_a_photo_of_the_same_pitch_through_another_lens_is_told(series):
+    seen = observe_photos(series.paths, settings=series.track_settings())
+    lenses = [replace(o, focal_px=focal) for o, focal in zip(seen, (2000.0, 2400.0, 2010.0), strict=True)]
+    kept, stranger, rounded = set_aside_strangers(lenses)
+    assert kept is lenses[0]
+    assert rounded is lenses[2]
+    assert stranger.board is None
+    assert "was taken at 1.19 times the focal length of most photos" in stranger.problem
 
 
 def test_a_bump_that_nothing_on_the_board_can_tell_gives_no_reading(series, tmp_path):

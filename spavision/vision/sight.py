@@ -30,11 +30,6 @@ class Sight:
     face_mm: float
     rear_mm: float
 
-    def to_face(self, board_mm: FloatArray) -> FloatArray:
-        """Return where the rays to board points pass the plane of the side face."""
-        share = (self.distance_mm - self.face_mm) / self.distance_mm
-        return np.asarray(self.foot_mm + (board_mm - self.foot_mm) * share)
-
     def on_board(self, face_mm: FloatArray) -> FloatArray:
         """Return the board points behind points of the side face."""
         return self._drop(face_mm, np.full(face_mm.shape[:-1], self.face_mm))
@@ -54,6 +49,12 @@ class Sight:
         """
         height = np.where(self._wall_is_seen(edge_mm, outward), self.rear_mm, self.face_mm)
         return self._drop(edge_mm, height)
+
+    def touched_at(self, board_mm: FloatArray, outward: FloatArray) -> FloatArray:
+        """Return the points of the outline that rays to board points touch: `seen_at` the other way round."""
+        height = np.where(self._wall_is_seen(board_mm, outward), self.rear_mm, self.face_mm)
+        share = (self.distance_mm - height) / self.distance_mm
+        return np.asarray(self.foot_mm + (board_mm - self.foot_mm) * share[..., None])
 
     def _wall_is_seen(self, edge_mm: FloatArray, outward: FloatArray) -> BoolArray:
         return np.asarray(((self.foot_mm - edge_mm) * outward).sum(axis=-1) > 0)

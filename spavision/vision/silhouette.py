@@ -71,8 +71,7 @@ def find_silhouette(board: RectifiedBoard, bare: BareBoard, limb: Limb, sight: S
         If the body cannot be told from the board along an edge, or tip or clamp cannot be seen.
     """
     view = _View(board, bare, sight)
-    rough = sight.to_face(board.to_mm(limb.centres))
-    line = line_through(rough, limb.half_width * board.pixel_mm)
+    line = _first_line(board, limb, sight)
     for search in SEARCH_SQUARES:
         sides = [view.edge(line, sign, search * board.square_mm) for sign in (-1.0, 1.0)]
         if sum(np.count_nonzero(np.isfinite(side.distance_mm)) for side in sides) < FEWEST_EDGE_POINTS:
@@ -90,6 +89,18 @@ def find_silhouette(board: RectifiedBoard, bare: BareBoard, limb: Limb, sight: S
     )
     shift_mm = EDGE_SHIFT_BLURS * bare.blur_squares * board.square_mm
     return Silhouette(line, fit.residuals_mm, np.hypot(across, shift_mm), heading)
+
+
+def _first_line(board: RectifiedBoard, limb: Limb, sight: Sight) -> CentreLine:
+    """Return the line midway between the limb's edges on the body, of which a seen wall is no part."""
+    half_mm = limb.half_width * board.pixel_mm
+    rough = line_through(board.to_mm(limb.centres), half_mm)
+    left, right = (
+        sight.touched_at(rough.points_mm + sign * half_mm * rough.rightward, sign * rough.rightward)
+        for sign in (-1.0, 1.0)
+    )
+    half = 0.5 * float(np.median(np.linalg.norm(right - left, axis=1)))
+    return line_through(0.5 * (left + right), half)
 
 
 @dataclass(frozen=True)

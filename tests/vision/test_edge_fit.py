@@ -17,7 +17,7 @@ from spavision.vision.edge_fit import (
 
 RADIUS_MM = 120.0
 LENGTH_MM = 150.0
-DRAWS = 40
+DRAWS = 30
 
 
 def _arc_points(count: int) -> np.ndarray:

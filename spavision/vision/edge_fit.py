@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -18,7 +19,7 @@ changes evenly, are left free."""
 SWELLING_SIGMA_MM = 0.3
 """How much either edge is expected to swell and shrink between the walls."""
 
-PERIODS = 1.0 / np.linspace(5.0, 30.0, 101)
+PERIODS: FloatArray = 1.0 / np.linspace(5.0, 30.0, 101)
 """Distances of the walls that are tried, over the length of the body."""
 
 FIT_STEPS = 6
@@ -194,7 +195,7 @@ def _strongest_swelling(residual_mm: FloatArray, weight: FloatArray) -> FloatArr
     """Return the columns of the period that explains most of what a smooth outline leaves."""
     found = np.isfinite(residual_mm)
     target = residual_mm[found] * weight[found]
-    candidates = [_swelling_columns(period) for period in PERIODS]
+    candidates = _swellings()
     explained = []
     for columns in candidates:
         design = columns[found]
@@ -202,6 +203,12 @@ def _strongest_swelling(residual_mm: FloatArray, weight: FloatArray) -> FloatArr
         gradient = design.T @ target
         explained.append(float(gradient @ np.linalg.solve(normal, gradient)))
     return candidates[int(np.argmax(explained))]
+
+
+@cache
+def _swellings() -> tuple[FloatArray, ...]:
+    """Return the columns of every period that is tried."""
+    return tuple(_swelling_columns(period) for period in PERIODS.tolist())
 
 
 def _swelling_columns(period: float) -> FloatArray:

@@ -79,7 +79,6 @@ class Case:
         curve = sections["composite"].get("curve")
         return {
             "model": self.model,
-            "mesh": self.experiment.model.mesh,
             **sections,
             "materials": laws,
             "curve": sha256(Path(curve)) if curve else None,

@@ -15,7 +15,7 @@ from spavision.tip_path import FloatArray, TipPath
 
 from .case import CaseResult, displacements
 from .explanation import measured_target
-from .parameters import Value
+from .parameters import Value, bounds
 from .plan import Plan, RunCases
 from .sampling import draw_shares, values_at
 
@@ -203,8 +203,11 @@ def _scatter(plan: Plan, best: Candidate, run: RunCases) -> list[CaseResult]:
     nominal = {one.name: one.nominal for one in suspects if one.name in chosen}
     cases = []
     for drawn in values_at(suspects, points):
-        off = {name: float(drawn[name]) - float(at) for name, at in nominal.items()}
-        cases.append({**chosen, **drawn, **{name: float(chosen[name]) + by for name, by in off.items()}})
+        moved = {
+            name: float(np.clip(float(chosen[name]) + float(drawn[name]) - float(at), *bounds(name)))
+            for name, at in nominal.items()
+        }
+        cases.append({**chosen, **drawn, **moved})
     return run(cases)
 
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
+
+from pydantic.fields import FieldInfo
 
 from spavision.checked_settings import did_you_mean
 from spavision.errors import InputError
@@ -10,13 +13,13 @@ from spavision.experiment import Experiment
 
 Value = float | int | str
 
-MODEL_SECTIONS = ("actuator", "composite")
-"""Sections of the experiment file that the model depends on, the mesh apart."""
+MODEL_SECTIONS = ("actuator", "composite", "model")
+"""Sections of the experiment file that the model depends on."""
 
 MEASUREMENT_KEYS = {"standoff_mm": "camera", "distance_mm": "camera", "scale": "board"}
 """Keys that move the measured path instead of the modelled one, with their sections."""
 
-_NOT_UNCERTAIN = ("first_bend", "void_count")
+_OF_THE_PHOTOS = ("first_bend",)
 
 
 def parameter_sections() -> dict[str, str]:
@@ -25,7 +28,7 @@ def parameter_sections() -> dict[str, str]:
     found: dict[str, str] = {}
     for section in MODEL_SECTIONS:
         annotation: Any = fields[section].annotation
-        found |= {key: section for key in annotation.model_fields if key not in _NOT_UNCERTAIN}
+        found |= {key: section for key in annotation.model_fields if key not in _OF_THE_PHOTOS}
     return found | MEASUREMENT_KEYS
 
 
@@ -58,3 +61,25 @@ def laid_over(nominal: Experiment, values: dict[str, Value]) -> Experiment:
     for name, value in values.items():
         options.setdefault(sections[name], {})[name] = value
     return nominal.with_options(options)
+
+
+def is_whole_number(name: str) -> bool:
+    """Whether a parameter counts something."""
+    return _field(name).annotation is int
+
+
+def bounds(name: str) -> tuple[float, float]:
+    """Return the lowest and highest value that the experiment file allows for a number."""
+    limits = [-math.inf, math.inf]
+    for one in _field(name).metadata:
+        for attribute, side in (("ge", 0), ("gt", 0), ("le", 1), ("lt", 1)):
+            value = getattr(one, attribute, None)
+            if value is not None:
+                limits[side] = float(value)
+    return limits[0], limits[1]
+
+
+def _field(name: str) -> FieldInfo:
+    section: Any = Experiment.model_fields[parameter_sections()[name]].annotation
+    found: FieldInfo = section.model_fields[name]
+    return found

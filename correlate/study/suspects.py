@@ -13,7 +13,7 @@ from spavision.experiment import Experiment
 from spavision.model.materials.library import alternatives, find_material
 from spavision.tip_path import FloatArray
 
-from .parameters import MEASUREMENT_KEYS, Value, nominal_value
+from .parameters import MEASUREMENT_KEYS, Value, bounds, is_whole_number, nominal_value
 from .study_file import StudyFile, SuspectSection
 
 _INTERVAL = (0.025, 0.975)
@@ -103,12 +103,12 @@ def _suspect(name: str, section: SuspectSection, experiment: Experiment, where: 
     if section.distribution == "choice":
         options = _options(section, name, nominal, where)
         return Suspect(nominal=options[0] if nominal is None else nominal, options=options, **common)
-    if isinstance(nominal, str):
-        raise InputError(f'{where}: {name} is {nominal!r}, not a number; use distribution = "choice"')
+    if isinstance(nominal, str) or is_whole_number(name):
+        raise InputError(f'{where}: {name} is {nominal!r}, expected a choice; use distribution = "choice"')
     centre = next((one for one in (section.mode, section.mean, nominal) if one is not None), None)
     if centre is None:
         raise InputError(f"{where}: {name} has no nominal value; give it in the experiment file, or mean")
-    distribution = _distribution(section, float(centre), where)
+    distribution = _distribution(section, float(centre), bounds(name), where)
     low, high = distribution.support()
     middle = float(centre if nominal is None else nominal)
     if not low <= middle <= high:
@@ -119,11 +119,17 @@ def _suspect(name: str, section: SuspectSection, experiment: Experiment, where: 
     return Suspect(nominal=middle, distribution=distribution, **common)
 
 
-def _distribution(section: SuspectSection, centre: float, where: str) -> Any:
+def _distribution(section: SuspectSection, centre: float, allowed: tuple[float, float], where: str) -> Any:
+    """Return the distribution; a normal one ends where the parameter's allowed values end."""
     if section.distribution == "normal":
-        return stats.norm(centre, section.sigma)
+        ends = [(limit - centre) / (section.sigma or 1.0) for limit in allowed]
+        return stats.truncnorm(*ends, centre, section.sigma)
     low = section.low if section.low is not None else centre - (section.plus_minus or 0.0)
     high = section.high if section.high is not None else centre + (section.plus_minus or 0.0)
+    if low < allowed[0] or high > allowed[1]:
+        raise InputError(
+            f"{where}: goes from {low:g} to {high:g}, allowed are {allowed[0]:g} to {allowed[1]:g}; narrow it"
+        )
     if section.distribution == "uniform":
         return stats.uniform(low, high - low)
     if not low <= centre <= high:

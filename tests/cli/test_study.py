@@ -136,6 +136,8 @@ def test_sweep_keeps_the_failed_case_with_its_reason(spavision, tmp_path):
         ("[suspects.side_wall_mm]\ndistribution='uniform'", "needs plus_minus, or low and high"),
         ("[suspects.side_wall_mm]\ndistribution='uniform'\nplusminus=1", "did you mean plus_minus?"),
         ("[suspects.body_material]\ndistribution='normal'\nsigma=1", 'use distribution = "choice"'),
+        ("[suspects.void_count]\ndistribution='uniform'\nplus_minus=1", 'use distribution = "choice"'),
+        ("[suspects.strip_b_mm]\ndistribution='uniform'\nplus_minus=4", "allowed are 0 to 20"),
         ("[suspects.roof_mm]\ndistribution='uniform'\nlow=3\nhigh=4", "outside 3 to 4"),
         ("[study]\nmodel='huge'", "[study] model"),
         ("", "names no suspect"),

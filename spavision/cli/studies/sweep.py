@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     "--vary",
     multiple=True,
     metavar="NAME=VALUES",
-    help="Parameter and its values, a list or from:to:step; may be given more than once.",
+    help="Parameter and its values: 1,2,3 or from:to:step; words are parted by semicolons. May be repeated.",
 )
 @study_options
 def sweep(file: Path | None, vary: tuple[str, ...], **given: Any) -> None:

@@ -13,8 +13,10 @@ from spavision.correlate.study.case import CaseResult
 from spavision.correlate.study.explanation import Target, explain_alone, reading_factor
 from spavision.correlate.study.sampling import draw_shares
 from spavision.correlate.study.sensitivity import sobol_indices
-from spavision.correlate.study.suspects import Suspect
+from spavision.correlate.study.study_file import StudyFile
+from spavision.correlate.study.suspects import Suspect, suspects_of
 from spavision.experiment import Experiment
+from spavision.model.materials.library import find_material
 from spavision.tip_path import FloatArray, TipPath
 
 
@@ -83,3 +85,20 @@ def test_sobol_sequence_is_the_same_again_and_even() -> None:
     np.testing.assert_array_equal(points, draw_shares(3, 64, sampling="sobol", seed=5))
     # A property of the sequence: each of 64 equal slices of an axis holds one of 64 points.
     assert [sorted((64 * column).astype(int).tolist()) for column in points.T] == [list(range(64))] * 3
+
+
+def test_normal_suspect_ends_where_the_parameter_does() -> None:
+    """A stiffness factor may not fall below 0.1; far from that end the quantiles are the normal law's."""
+    content = {"suspects": {"body_stiffness": {"distribution": "normal", "sigma": 0.3}}}
+    (suspect,) = suspects_of(StudyFile.model_validate(content), Experiment(), source="study")
+    assert suspect.value(1e-9) >= 0.1
+    assert suspect.value(0.975) == pytest.approx(1.0 + 1.96 * 0.3, abs=2e-3)
+
+
+def test_material_without_options_takes_the_alternatives_of_the_library() -> None:
+    content = {"suspects": {"matrix_material": {"distribution": "choice"}}}
+    (suspect,) = suspects_of(StudyFile.model_validate(content), Experiment(), source="study")
+    stiffness = [find_material(str(name)).law.shear_modulus_MPa for name in suspect.options]
+    assert len(stiffness) > 3
+    assert stiffness == sorted(stiffness)
+    assert suspect.value(suspect.share("Ecoflex 00-30")) == "Ecoflex 00-30"

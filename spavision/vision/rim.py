@@ -59,7 +59,9 @@ def find_rim(
     """
     looks = [_look(image, board, centre_px, radius_squares, inside, separation) for separation in SEPARATIONS]
     found = [look for look in looks if look is not None]
-    return max(found, key=lambda look: (round(look[1].coverage, 1), -look[1].rms), default=None)
+    # Where both see as much, always the first: half contrast lies elsewhere in the other's colours, and the
+    # rims of a series are compared.
+    return max(found, key=lambda look: round(look[1].coverage, 1), default=None)
 
 
 def _look(

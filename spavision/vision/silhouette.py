@@ -33,7 +33,8 @@ FEWEST_EDGE_POINTS = 60
 
 BEYOND_SQUARES = (0.2, 0.7)
 LEAST_PATTERN = 0.8
-"""Stretch beyond an edge in which the board's pattern must show, and share of its contrast that must."""
+"""Stretch beyond an edge in which the board's pattern must show, and share of its contrast that must. What
+lacks leaves room for a grey layer not told from the board; the line is as uncertain, in squares."""
 
 END_MARGIN_MM = 2.0
 """Stretch at either end that is left out of the fit: rounded corners, the clamp's shadow."""
@@ -79,7 +80,8 @@ def find_silhouette(board: RectifiedBoard, bare: BareBoard, limb: Limb, sight: S
         fit = fit_edges(line, sides[0], sides[1])
         tip = view.tip(fit.line, search * board.square_mm)
         line = fit.line.trimmed(0.0, fit.line.length_mm + tip)
-    if min(view.pattern_beyond(line, sign) for sign in (-1.0, 1.0)) < LEAST_PATTERN:
+    pattern = min(view.pattern_beyond(line, sign) for sign in (-1.0, 1.0))
+    if pattern < LEAST_PATTERN:
         raise UnclearError("what lies beyond the edge found is not the bare board")
     start_mm = view.clamp(line)
     line = line.trimmed(start_mm, line.length_mm)
@@ -87,8 +89,8 @@ def find_silhouette(board: RectifiedBoard, bare: BareBoard, limb: Limb, sight: S
         np.interp(line.arc_mm + start_mm, fit.line.arc_mm, sigma)
         for sigma in (fit.sigma_across_mm, fit.sigma_heading_rad)
     )
-    shift_mm = EDGE_SHIFT_BLURS * bare.blur_squares * board.square_mm
-    return Silhouette(line, fit.residuals_mm, np.hypot(across, shift_mm), heading)
+    shift = np.hypot(EDGE_SHIFT_BLURS * bare.blur_squares, max(0.0, 1.0 - pattern))
+    return Silhouette(line, fit.residuals_mm, np.hypot(across, shift * board.square_mm), heading)
 
 
 def _first_line(board: RectifiedBoard, limb: Limb, sight: Sight) -> CentreLine:

@@ -28,7 +28,7 @@ REACH_SIGMAS = 6.0
 LARGEST_MOVE_RADII = 0.25
 """A disc farther than this from the circle through the edge points is something else."""
 
-CORRELATION_PX = 1.5
+CORRELATION_PX = 2.0
 """Pixels this near share their error (demosaicing, JPEG, the smoothing): the reach of its covariance."""
 
 

@@ -227,7 +227,11 @@ def simulate(
 
 
 def compare(
-    measured: Tracked | str | Path, modelled: Simulated | None = None, *, progress: bool = False
+    measured: Tracked | str | Path,
+    modelled: Simulated | None = None,
+    *,
+    study: str | Path | None = None,
+    progress: bool = False,
 ) -> Compared:
     """Compare a measured with a modelled tip path at equal pressures.
 
@@ -237,13 +241,15 @@ def compare(
         A track, or the CSV file of a path that was measured otherwise (then ``modelled`` says of what).
     modelled : Simulated, optional
         By default the model of the track's own experiment is run at the measured pressures.
+    study : str or Path, optional
+        Results folder of ``spavision study``: its u_input, and what each suspect can explain.
     progress : bool
         Show progress on a terminal.
 
     Raises
     ------
     InputError
-        If the sides share no pressure, or a table comes without a model.
+        If the sides share no pressure, a table comes without a model, or the study is of another actuator.
     """
     results = _scratch()
     if isinstance(measured, Tracked):
@@ -258,10 +264,15 @@ def compare(
         table = Path(measured)
         source = Source(table.stem, modelled.experiment, table=table)
         side = take_measurement(source, results=results, quiet=True)
+    studied = None
+    if study is not None:
+        from spavision.workflow.study_results import read_study_results
+
+        studied = read_study_results(Path(study), crimp_ratio=source.experiment.actuator.crimp_ratio)
     if modelled is None:
-        return Compared(compare_with_model(side, quiet=not progress), results)
+        return Compared(compare_with_model(side, quiet=not progress, study=studied), results)
     results.take_over(modelled.scratch)
-    return Compared(compare_sides(side, modelled.simulation), results)
+    return Compared(compare_sides(side, modelled.simulation, study=studied), results)
 
 
 def _experiment(

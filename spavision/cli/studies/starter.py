@@ -65,6 +65,11 @@ distribution = "uniform"
 low = 0
 high = 20
 
+# The law itself, better in a study of its own: with another law the paper's figures above have no effect.
+# [suspects.law]
+# distribution = "choice"
+# options = ["slack-fibre", "resolved", "ogden"]
+
 # Set-up.
 [suspects.gravity_tilt_deg]
 distribution = "normal"

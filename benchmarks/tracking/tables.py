@@ -1,4 +1,7 @@
-"""Tables of the tracker's benchmark: rows saved set by set, and the page that is made of them."""
+"""Tables of the tracker's benchmark: rows saved set by set, and the page that is made of them.
+
+Run: python benchmarks/tracking/tables.py (writes the page into docs/tracking.md)
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ import numpy as np
 import pandas as pd
 from scenes import NUISANCES
 
-RESULTS = Path(__file__).parent / "results"
+RESULTS = Path(__file__).parent / "measured"
 GUIDE = Path(__file__).parents[2] / "docs" / "tracking.md"
 START, END = "<!-- benchmark: start -->", "<!-- benchmark: end -->"
 KEYS = ["set", "seed", "detector"]

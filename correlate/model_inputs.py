@@ -45,6 +45,7 @@ def model_inputs(experiment: Experiment) -> ModelInputs:
         raise InputError("the crimp ratio is not known; give --crimp 0.2, or crimp_ratio under [actuator]")
     settings = SimulationSettings(
         mesh_level=experiment.model.mesh,
+        control=experiment.model.control,
         body_material=actuator.body_material,
         strip_a_material=actuator.body_material,
         strip_b_material=actuator.strip_b_material,

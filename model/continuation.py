@@ -13,6 +13,9 @@ from .linear_solver import LinearSolver
 from .newton import NewtonResult, NewtonSettings, NotConvergedError, find_equilibrium
 from .state import Load, State, combine
 
+_NEAR_KPA = 1.0
+"""A limit point foreseen this near to where the ramp stops is taken for the reason."""
+
 
 @dataclass(frozen=True)
 class SteppingSettings:
@@ -40,10 +43,13 @@ class AcceptedStep:
     ----------
     pressure_kPa : float
     result : NewtonResult
+    place : RampPlace or None
+        From where a pressure ramp can go on; None under volume control.
     """
 
     pressure_kPa: float
     result: NewtonResult
+    place: RampPlace | None = None
 
 
 class RampStoppedError(ArithmeticError):
@@ -88,9 +94,16 @@ def settle_under_gravity(
             return result
 
 
+def ramp_at_rest(
+    problem: Equilibrium, hanging: NewtonResult, *, solver: LinearSolver, stepping: SteppingSettings
+) -> RampPlace:
+    """Return the place of a ramp that has not begun, at the equilibrium without gas pressure."""
+    return RampPlace((_waypoint(problem, 0.0, hanging, solver),), stepping.first_step_kPa)
+
+
 def pressure_ramp(
     problem: Equilibrium,
-    start: NewtonResult,
+    start: RampPlace,
     *,
     targets_kPa: FloatArray,
     gravity: bool,
@@ -98,15 +111,14 @@ def pressure_ramp(
     newton: NewtonSettings,
     stepping: SteppingSettings,
 ) -> Iterator[AcceptedStep]:
-    """Step from zero pressure through the given pressures.
+    """Step through the given pressures.
 
     Parameters
     ----------
     problem : Equilibrium
-    start : NewtonResult
-        Equilibrium at zero pressure.
+    start : RampPlace
     targets_kPa : array, shape (n,)
-        Positive and increasing; each of them is met exactly.
+        Increasing; each of them beyond the start is met exactly.
     gravity : bool
         Whether the body bears its weight.
     solver : LinearSolver
@@ -122,8 +134,7 @@ def pressure_ramp(
     RampStoppedError
         If no step above the smallest converges.
     """
-    history = [_waypoint(problem, 0.0, start, solver)]
-    step = stepping.first_step_kPa
+    history, step = list(start.history), start.step_kPa
     for target in targets_kPa:
         while history[-1].pressure_kPa < target:
             pressure = _next_pressure(history[-1].pressure_kPa, step, float(target))
@@ -134,11 +145,11 @@ def pressure_ramp(
             except NotConvergedError as error:
                 step = 0.5 * (pressure - history[-1].pressure_kPa)
                 if step < stepping.smallest_step_kPa:
-                    raise RampStoppedError(history[-1].pressure_kPa, str(error)) from error
+                    raise RampStoppedError(history[-1].pressure_kPa, _why(history, error)) from error
                 continue
             step = _adapted(step, result.iterations, stepping)
             history = [history[-1], _waypoint(problem, pressure, result, solver)]
-            yield AcceptedStep(pressure, result)
+            yield AcceptedStep(pressure, result, RampPlace(tuple(history), step))
 
 
 @dataclass(frozen=True)
@@ -156,6 +167,22 @@ class Waypoint:
     pressure_kPa: float
     state: State
     rate: State | None
+
+
+@dataclass(frozen=True)
+class RampPlace:
+    """Where a pressure ramp stands: all that it needs to go on.
+
+    Parameters
+    ----------
+    history : tuple of Waypoint
+        The last one or two.
+    step_kPa : float
+        The step to try next.
+    """
+
+    history: tuple[Waypoint, ...]
+    step_kPa: float
 
 
 def extrapolate(history: list[Waypoint], pressure_kPa: float) -> State:
@@ -192,6 +219,33 @@ def _waypoint(
     rate = np.zeros_like(result.state.displacement)
     rate[problem.is_free] = solver.solve(1e-3 * problem.unit_pressure_forces(result.state)[problem.is_free])
     return Waypoint(pressure_kPa, result.state, problem.linear_change(result.tangent_at, rate))
+
+
+def _why(history: list[Waypoint], error: NotConvergedError) -> str:
+    """Say why no further step converges, with the limit point if the path turns steep towards one."""
+    limit_kPa = limit_point_kPa(history)
+    last_kPa = history[-1].pressure_kPa
+    if limit_kPa - last_kPa < _NEAR_KPA:
+        return (
+            f"a limit point, a maximum of the gas pressure, is foreseen at {limit_kPa:.2f} kPa; "
+            "volume control passes it"
+        )
+    return f"no equilibrium was found beyond: {error}"
+
+
+def limit_point_kPa(history: list[Waypoint]) -> float:
+    """Return the pressure of the limit point that the last two waypoints foresee; infinite if none.
+
+    Towards a limit point the path turns steep, its rate growing with one over the root of the pressure
+    that is left (a fold): the inverse square of the rate falls linearly to nothing.
+    """
+    pairs = [(point.pressure_kPa, point.rate) for point in history if point.rate is not None]
+    if len(pairs) < 2:
+        return np.inf
+    (before_kPa, before), (last_kPa, last) = pairs
+    left = [1.0 / float(np.sum(rate.displacement**2)) for rate in (before, last)]
+    fallen = left[0] - left[1]
+    return last_kPa + (last_kPa - before_kPa) * left[1] / fallen if fallen > 0.0 else np.inf
 
 
 def _next_pressure(current: float, step: float, target: float) -> float:

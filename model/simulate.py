@@ -10,7 +10,7 @@ from spavision.errors import InputError
 from spavision.tip_path import TipPath
 
 from .actuator_problem import actuator_problem
-from .continuation import AcceptedStep, RampStoppedError, pressure_ramp, settle_under_gravity
+from .continuation import AcceptedStep, RampStoppedError, pressure_ramp, ramp_at_rest, settle_under_gravity
 from .elements import FloatArray
 from .equilibrium import Equilibrium
 from .geometry import ActuatorGeometry
@@ -122,7 +122,7 @@ def _ramp(
         )
     return pressure_ramp(
         problem,
-        hanging,
+        ramp_at_rest(problem, hanging, solver=solver, stepping=settings.stepping),
         targets_kPa=targets_kPa,
         gravity=settings.gravity,
         solver=solver,

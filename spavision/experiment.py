@@ -196,6 +196,9 @@ class ModelSection(Section):
     """Settings of the finite-element model."""
 
     mesh: Literal["draft", "default", "fine"] = Field("default", description="mesh level")
+    control: Literal["pressure", "volume"] = Field(
+        "pressure", description="what is stepped; volume passes limit points"
+    )
 
 
 class Experiment(Section):

@@ -43,6 +43,7 @@ PRESSURE_OPTIONS = {"pressures": "table", "pressures_kpa": "list", "pressure_ste
 MODEL_OPTIONS = {
     "crimp": ("actuator", "crimp_ratio"),
     "mesh": ("model", "mesh"),
+    "control": ("model", "control"),
     "composite": ("composite", "law"),
     "composite_curve": ("composite", "curve"),
 }
@@ -140,6 +141,9 @@ def model_options(command: Command) -> Command:
             "--composite",
             type=str,
             help="slack-fibre, ogden (the article's way) or resolved (a coupon) [default: slack-fibre].",
+        ),
+        click.option(
+            "--control", type=str, help="pressure or volume (passes limit points) [default: pressure]."
         ),
         click.option("--mesh", type=str, help="Mesh level: draft, default or fine."),
         click.option(

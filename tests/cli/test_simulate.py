@@ -62,6 +62,7 @@ def test_a_deck_is_not_replaced_unasked(spavision, tmp_path):
         ((), ("crimp ratio", "--crimp")),
         (("--crimp", "0.9"), ("crimp_ratio", "0.9")),
         (("--crimp", "0.2", "--mesh", "coarse"), ("mesh", "coarse", "draft")),
+        (("--crimp", "0.2", "--control", "force"), ("control", "force", "volume")),
         (("--crimp", "0.2", "--composite", "hooke"), ("hooke", "slack-fibre", "resolved")),
         (
             ("--crimp", "0.2", "--composite", "ogden", "--composite-curve", "no.csv"),

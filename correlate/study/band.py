@@ -47,11 +47,6 @@ class Band:
     n_reached: NDArray[np.int64]
     n_cases: int
 
-    @property
-    def is_whole(self) -> bool:
-        """Whether every case reached every pressure."""
-        return bool(np.all(self.n_reached == self.n_cases))
-
     def table(self) -> pd.DataFrame:
         """Return the band as a DataFrame, one row a pressure, in the columns of the CSV file."""
         import pandas as pd

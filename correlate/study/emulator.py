@@ -16,7 +16,6 @@ from spavision.errors import InputError
 from spavision.tip_path import FloatArray
 
 from .case import CaseResult, displacements
-from .parameters import Value
 from .suspects import Suspect
 
 _VARIANCE_KEPT = 0.9995
@@ -53,13 +52,6 @@ class Emulator:
         scores = np.column_stack([process.predict(inputs) for process in self._processes])
         flat = self._components.inverse_transform(scores) * self._scale_mm
         return np.asarray(flat).reshape(len(points), 2, self.n_pressures)
-
-    def sigma(self, points: FloatArray) -> FloatArray:
-        """Return the emulator's own standard uncertainty, shape (n, 2, n_pressures), in mm."""
-        inputs = _features(self.suspects, points)
-        spread = [process.predict(inputs, return_std=True)[1] ** 2 for process in self._processes]
-        flat = np.column_stack(spread) @ self._components.components_**2
-        return np.asarray(np.sqrt(flat) * self._scale_mm).reshape(len(points), 2, self.n_pressures)
 
 
 @dataclass(frozen=True)
@@ -153,10 +145,6 @@ def _features(suspects: tuple[Suspect, ...], points: FloatArray) -> FloatArray:
             chosen = [one.value(float(share)) for share in shares]
             columns += [np.array([value == option for value in chosen], float) for option in one.options[:-1]]
             continue
-        low, high = (_number(value) for value in one.interval)
+        low, high = (float(value) for value in one.interval)
         columns.append((one.distribution.ppf(shares) - 0.5 * (low + high)) / (0.5 * (high - low)))
     return np.column_stack(columns)
-
-
-def _number(value: Value) -> float:
-    return float(value)

@@ -58,7 +58,6 @@ def test_band_counts_the_cases_that_did_not_get_there() -> None:
     found = band(TipPath(np.array([0.0, 5.0, 10.0]), flat, flat, flat, flat), results)
     np.testing.assert_allclose(found.sigma_mm[0], [0.0, np.sqrt(2.5), np.sqrt(5.0 / 3.0)])
     assert found.n_reached.tolist() == [5, 5, 4]
-    assert not found.is_whole
     assert found.table()["median_ux_mm"].tolist() == [0.0, 2.0, 1.5]
 
 

@@ -12,7 +12,7 @@ from spavision.model.coupon.calibration import calibrated_slack_fibre, ogden_com
 from spavision.model.coupon.coupon import pull_coupon
 from spavision.model.coupon.geometry import CouponGeometry
 from spavision.model.coupon.paper import paper_of_sheet
-from spavision.model.fitting.curve_files import read_curve
+from spavision.model.fitting.curve_files import CurveFormat, read_curve
 from spavision.model.fitting.measured_curve import MeasuredCurve
 from spavision.model.materials.library import find_material
 from spavision.model.simulation import SimulationSettings
@@ -37,14 +37,16 @@ def with_composite(
         return settings, ()
     matrix = find_material(composite.matrix_material)
     curve = _curve(composite, crimp_ratio)
+    data_notes = tuple(f"{curve.name}: {note}" for note in curve.notes)
     if composite.law == "ogden":
         ogden = ogden_composite(curve, density_g_per_cm3=matrix.density_g_per_cm3)
-        return replace(settings, composite=ogden.material), ogden.notes
+        return replace(settings, composite=ogden.material), data_notes + ogden.notes
     calibrated = calibrated_slack_fibre(
         curve, matrix=matrix.law, crimp_ratio=crimp_ratio, paper=settings.paper
     )
     stiffness = calibrated.matrix_stiffness * settings.matrix_stiffness
-    return replace(settings, paper=calibrated.paper, matrix_stiffness=stiffness), calibrated.notes
+    calibrated_settings = replace(settings, paper=calibrated.paper, matrix_stiffness=stiffness)
+    return calibrated_settings, data_notes + calibrated.notes
 
 
 def _curve(composite: CompositeSection, crimp_ratio: float) -> MeasuredCurve:
@@ -56,7 +58,7 @@ def _curve(composite: CompositeSection, crimp_ratio: float) -> MeasuredCurve:
             composite.coupon_fold_radius_mm,
             composite.coupon_paper_modulus_MPa,
         )
-    curve = read_curve(Path(composite.curve))
+    curve = read_curve(Path(composite.curve), CurveFormat(may_stiffen=True))
     if not curve.strain.max() > -curve.strain.min():
         raise InputError(
             f"{composite.curve}: is no tension test, expected one of the composite; name another"

@@ -14,14 +14,18 @@ from spavision.model.materials.curves import EQUIBIAXIAL, PLANAR, UNIAXIAL
 from .column_names import STRAIN_UNITS, Column, STRESS_UNITS_MPa, strain_columns, stress_columns
 from .first_loading import Points, first_loading, stretch_from, with_compression_negative
 from .measured_curve import FloatArray, MeasuredCurve
+from .plausibility import compression_doubts
 from .text_table import TextTable, parse_table
 
 COMPRESSION = "compression"
 """Mode name of a uniaxial test whose strains may be written with a positive sign."""
 
+TENSION, UNTOLD = "tension", "uniaxial"
+"""Mode names of uniaxial tests whose strains have the sign that is written."""
+
 MODE_NAMES = {
-    "uniaxial": UNIAXIAL,
-    "tension": UNIAXIAL,
+    UNTOLD: UNIAXIAL,
+    TENSION: UNIAXIAL,
     COMPRESSION: UNIAXIAL,
     "equibiaxial": EQUIBIAXIAL,
     "planar": PLANAR,
@@ -31,11 +35,12 @@ _MODE_WORDS = (
     ("equibiaxial", re.compile(r"(?<![a-z])(equi ?)?biax(ial)?(?![a-z])")),
     ("planar", re.compile(r"(?<![a-z])(planar|pure shear)(?![a-z])")),
     (COMPRESSION, re.compile(r"(?<![a-z])(compression|compressive|iso 7743)(?![a-z])")),
-    ("uniaxial", re.compile(r"(?<![a-z])(uniax(ial)?|tension|tensile|iso 37|astm d412)(?![a-z])")),
+    (TENSION, re.compile(r"(?<![a-z])(tension|tensile|iso 37|astm d412)(?![a-z])")),
+    (UNTOLD, re.compile(r"(?<![a-z])uniax(ial)?(?![a-z])")),
 )
 """Words in a file's name, its folder's name or its preamble that tell the mode, the first match taken."""
 
-_MODE_CODES = {"ut": "uniaxial", "uc": COMPRESSION, "et": "equibiaxial", "bt": "equibiaxial", "ps": "planar"}
+_MODE_CODES = {"ut": TENSION, "uc": COMPRESSION, "et": "equibiaxial", "bt": "equibiaxial", "ps": "planar"}
 """Whole names of files or folders that do."""
 
 _PREAMBLE_LENGTH = 2000
@@ -59,6 +64,8 @@ class CurveFormat:
         ``nominal`` or ``true``.
     stress_unit : str or None
         A key of `STRESS_UNITS_MPa`.
+    may_stiffen : bool
+        Whether a curve that rises ever more steeply is believed to be tension, as one of the composite.
     """
 
     mode: str | None = None
@@ -67,6 +74,7 @@ class CurveFormat:
     strain_unit: str | None = None
     stress_measure: str | None = None
     stress_unit: str | None = None
+    may_stiffen: bool = False
 
 
 def read_curve(path: Path, form: CurveFormat | None = None) -> MeasuredCurve:
@@ -90,19 +98,32 @@ def read_curve(path: Path, form: CurveFormat | None = None) -> MeasuredCurve:
     table = parse_table(text, source=source)
     names = _column_names(table, form, source)
     mode_name, mode_notes = _mode(path, text, form)
+
+    def read_as(mode_name: str) -> MeasuredCurve:
+        points = _points(table, names, form, mode_name, source)
+        notes = (*mode_notes, *points.notes)
+        return MeasuredCurve(
+            _short_name(path), MODE_NAMES[mode_name], points.stretch, points.stress_MPa, notes
+        )
+
+    curve = read_as(mode_name)
+    if "crosshead" in text[:_PREAMBLE_LENGTH].lower():
+        curve = curve.noted("strain from the crosshead: too large where the grips let slip")
+    if mode_name == UNTOLD and form.mode is None and not form.may_stiffen:
+        curve = curve.noted(*compression_doubts(curve, lambda: read_as(COMPRESSION), source=source))
+    return curve
+
+
+def _points(
+    table: TextTable, names: tuple[str, ...], form: CurveFormat, mode_name: str, source: str
+) -> Points:
+    """First loading as stretch and nominal stress."""
     stretch, strain_notes = _stretch(table, names, form, mode_name, source)
     stress, is_true, stress_notes = _stress(table, names, form, source)
     if is_true:
         # an incompressible body's section shrinks by λ in the loaded direction, in each of the three tests
         stress = stress / stretch
-    if "crosshead" in text[:_PREAMBLE_LENGTH].lower():
-        strain_notes = (*strain_notes, "strain from the crosshead: too large where the grips let slip")
-    points = first_loading(
-        Points(stretch, stress, (*mode_notes, *strain_notes, *stress_notes)), source=source
-    )
-    return MeasuredCurve(
-        _short_name(path), MODE_NAMES[mode_name], points.stretch, points.stress_MPa, points.notes
-    )
+    return first_loading(Points(stretch, stress, (*strain_notes, *stress_notes)), source=source)
 
 
 def _text_of(path: Path) -> str:
@@ -197,10 +218,15 @@ def _mode(path: Path, text: str, form: CurveFormat) -> tuple[str, tuple[str, ...
     for place, words in (("name", path.stem), ("folder", path.parent.name)):
         if words.lower() in _MODE_CODES:
             return _MODE_CODES[words.lower()], (f"{_MODE_CODES[words.lower()]} test, by the file's {place}",)
-    preamble = text[:_PREAMBLE_LENGTH]
-    for place, words in (("name", path.stem), ("folder", path.parent.name), ("preamble", preamble)):
+    for place, words in (
+        ("name", path.stem),
+        ("folder", path.parent.name),
+        ("preamble", text[:_PREAMBLE_LENGTH]),
+    ):
         plain = re.sub(r"[_\-\s]+", " ", words).lower()
-        for name, pattern in _MODE_WORDS:
-            if pattern.search(plain):
-                return name, (f"{name} test, by the file's {place}",)
-    return "uniaxial", ("uniaxial test assumed; --mode names another",)
+        told = [name for name, pattern in _MODE_WORDS if pattern.search(plain)]
+        # a machine for tension and compression does not tell which of them was made
+        told = told if not {COMPRESSION, TENSION} <= set(told) else []
+        if told:
+            return told[0], (f"{told[0]} test, by the file's {place}",)
+    return UNTOLD, ("uniaxial test assumed; --mode names another",)

@@ -54,6 +54,10 @@ class MeasuredCurve:
         """Engineering strain, stretch − 1, shape (n,)."""
         return self.stretch - 1.0
 
+    def noted(self, *notes: str) -> MeasuredCurve:
+        """Return the curve with more notes."""
+        return replace(self, notes=(*self.notes, *notes))
+
     def within(self, lowest_strain: float, highest_strain: float) -> MeasuredCurve:
         """Return the points inside a window of engineering strain."""
         inside = (self.strain >= lowest_strain - _ROUNDING) & (self.strain <= highest_strain + _ROUNDING)

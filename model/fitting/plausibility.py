@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -19,6 +19,15 @@ PLAUSIBLE_SHEAR_MODULUS_MPa = (1e-3, 100.0)
 
 PLAUSIBLE_BIAXIAL_RATIO = 3.0
 """Nominal stress at equibiaxial stretch √x over that at uniaxial stretch x; 0.4 to 0.9 for rubbers."""
+
+_DOUBTED, _REFUSED = 0.5, 0.2
+"""Misfit of the neo-Hookean law to a curve read as compression, over that to the curve read as tension."""
+
+_TELLING_MISFIT = 1e-4
+"""A curve that fits tension as well as this is not doubted."""
+
+_CLOSE_MISFIT = 0.02
+"""A curve that fits compression as well as this is no stiffening composite."""
 
 
 def refuse_absurd_modulus(data: FitData) -> None:
@@ -62,3 +71,53 @@ def biaxial_notes(law: IsotropicLaw, curves: Sequence[MeasuredCurve]) -> list[st
         f"the stress at equibiaxial stretch {biaxial[0]:.3g} is {ratio:.3g} times that at uniaxial stretch "
         f"{stretch[0]:.3g}, which no test supports: add a biaxial test or fit another law"
     ]
+
+
+def compression_doubts(
+    as_tension: MeasuredCurve, read_as_compression: Callable[[], MeasuredCurve], *, source: str
+) -> tuple[str, ...]:
+    """Doubt that positive strains are tension where nothing tells and the stress rises ever more steeply.
+
+    Up to strains of 100 % rubber softens in tension and stiffens in compression, the neo-Hookean law by
+    λ − λ⁻² in both. A stiffening composite in tension lies between.
+
+    Parameters
+    ----------
+    as_tension : MeasuredCurve
+    read_as_compression : callable
+        Returns the curve with the strains' sign reversed.
+    source : str
+        File name for messages.
+
+    Returns
+    -------
+    notes : tuple of str
+
+    Raises
+    ------
+    InputError
+        If the curve is that of rubber in compression.
+    """
+    strain = as_tension.strain
+    if not (0.0 < strain.max() < 1.0 and strain.min() > -0.02 * strain.max()):
+        return ()
+    tension = _neo_hookean_misfit(as_tension)
+    if tension <= _TELLING_MISFIT:
+        return ()
+    compression = _neo_hookean_misfit(read_as_compression())
+    if compression < min(_REFUSED * tension, _CLOSE_MISFIT):
+        raise InputError(
+            f"{source}: the strains are positive, but the stress rises as that of rubber in compression; "
+            "give --mode compression, or --mode uniaxial if it is tension"
+        )
+    if compression < _DOUBTED * tension:
+        return ("the stress rises ever more steeply: --mode compression if that is the test",)
+    return ()
+
+
+def _neo_hookean_misfit(curve: MeasuredCurve) -> float:
+    """1 − R² of the best neo-Hookean law, 0 for a stress that does not vary."""
+    unit = nominal_stress(NeoHooke(1.0), curve.stretch, UNIAXIAL)
+    residual = curve.stress_MPa - unit * float(unit @ curve.stress_MPa) / float(unit @ unit)
+    total = float(np.sum((curve.stress_MPa - curve.stress_MPa.mean()) ** 2))
+    return float(residual @ residual) / total if total > 0.0 else 0.0

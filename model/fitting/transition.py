@@ -100,7 +100,7 @@ def strain_transition(strain: FloatArray, stress_MPa: FloatArray, *, name: str) 
     if not secondary.modulus_MPa > primary.modulus_MPa:
         raise InputError(
             f"{name}: the modulus falls from {primary.modulus_MPa:.3g} to {secondary.modulus_MPa:.3g} MPa, "
-            "so there is no transition to a stiffer range; leave --transition out"
+            "so there is no transition to a stiffer range; pull the test further, or do without it"
         )
     crossing = (primary.intercept_MPa - secondary.intercept_MPa) / (
         secondary.modulus_MPa - primary.modulus_MPa
@@ -108,7 +108,8 @@ def strain_transition(strain: FloatArray, stress_MPa: FloatArray, *, name: str) 
     if not 0.0 < crossing < strain[-1]:
         raise InputError(
             f"{name}: the lines of the primary and the secondary modulus meet at {crossing:.1%} strain, "
-            f"outside the test of 0 to {strain[-1]:.1%}, so there is no transition; leave --transition out"
+            f"outside the test of 0 to {strain[-1]:.1%}, so there is no transition; pull the test further, or "
+            "do without it"
         )
     return StrainTransition(float(crossing), primary, secondary)
 

@@ -141,6 +141,7 @@ def _curves(data: tuple[Path, ...], given: dict[str, Any]) -> tuple[Any, ...]:
             strain_unit=given["strain_unit"],
             stress_measure=given["stress_measure"],
             stress_unit=given["stress_unit"],
+            may_stiffen=given["transition"] or given["law"] == "slack-fibre",
         )
         curves.append(read_curve(path, form))
     return in_window(curves, _window(given["window"])) if given["window"] else tuple(curves)

@@ -49,6 +49,7 @@ def test_a_curve_calibrates_one_ogden_law(tension_test):
     fitted = nominal_stress(law, 1.0 + STRAIN, UNIAXIAL)
     assert np.all(np.diff(fitted) > 0.0)
     assert any("R²" in note and "transition" in note for note in found.notes)
+    assert any("tension test, by the file's name" in note for note in found.notes)
     assert found.settings.composite.strain_range == pytest.approx((0.0, 0.6))
 
 

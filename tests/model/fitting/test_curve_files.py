@@ -125,6 +125,44 @@ def test_true_measures_in_compression_with_positive_sign(tmp_path):
     np.testing.assert_allclose(curve.stress_MPa, nominal, rtol=1e-9, atol=1e-12)
 
 
+def test_positive_strains_that_nothing_names_are_doubted_by_the_shape(tmp_path):
+    """Mooney-Rivlin in compression, 2 (C₁₀ + C₀₁/λ)(λ − λ⁻²), written with positive signs."""
+    strain = np.linspace(0.0, 0.4, 21)
+    stretch = 1.0 - strain
+    pressed = -2.0 * (0.04 + 0.01 / stretch) * (stretch - stretch**-2)
+    text = "strain,stress_MPa\n" + rows(strain, pressed)
+    with pytest.raises(InputError, match="give --mode compression, or --mode uniaxial"):
+        read_curve(write(tmp_path / "specimen 3.csv", text))
+    told = [
+        read_curve(write(tmp_path / "tension.csv", text)),
+        read_curve(tmp_path / "specimen 3.csv", CurveFormat(mode="uniaxial")),
+        read_curve(tmp_path / "specimen 3.csv", CurveFormat(may_stiffen=True)),
+    ]
+    for curve in told:
+        np.testing.assert_allclose(curve.strain, strain, atol=1e-12)
+
+
+def test_a_stiffening_composite_in_tension_is_noted_and_rubber_is_not(tmp_path):
+    strain = np.linspace(0.0, 0.5, 51)
+    rubber = 0.04 * ((1 + strain) - (1 + strain) ** -2)
+    bilinear = rubber + 2.0 * np.maximum(strain - 0.3, 0.0)
+    for stress, noted in ((rubber, False), (bilinear, True)):
+        curve = read_curve(write(tmp_path / "a.csv", "strain,stress_MPa\n" + rows(strain, stress)))
+        np.testing.assert_allclose(curve.strain, strain, atol=1e-12)
+        assert any("--mode compression" in note for note in curve.notes) is noted
+
+
+def test_a_machine_for_tension_and_compression_does_not_tell_the_mode(tmp_path):
+    text = "Machine;for tension and compression\nstrain;stress_MPa\n" + rows(
+        STRAIN, STRESS_MPa, separator=";"
+    )
+    # not beside a folder named after this test
+    (tmp_path / "data").mkdir()
+    curve = read_curve(write(tmp_path / "data" / "a.csv", text))
+    np.testing.assert_allclose(curve.strain, STRAIN, atol=1e-12)
+    assert any("uniaxial test assumed" in note for note in curve.notes)
+
+
 def test_rows_with_gaps_are_left_out_and_told(tmp_path):
     text = "strain,stress_MPa\n0,0\n0.1,\n,0.02\n0.2,0.03\nnan,0.1\n0.3,0.04\n"
     curve = read_curve(write(tmp_path / "a.csv", text))

@@ -76,7 +76,6 @@ def _attribution(setup: Setup, target: Any, full_runs: int) -> Attribution:
 def _write(setup: Setup, found: Attribution) -> None:
     from spavision.correlate.study.attribution_figures import attribution_figure, sobol_figure
     from spavision.correlate.study.sensitivity import local_table
-    from spavision.workflow.pictures import figure_bytes
 
     results = setup.results
     results.write_text("attribution.csv", csv_text(found.table()))
@@ -86,9 +85,7 @@ def _write(setup: Setup, found: Attribution) -> None:
         "attribution": attribution_figure(found.alone, found.together, title="What each suspect can explain"),
         "sobol": sobol_figure(found.sobol),
     }
-    for name, figure in figures.items():
-        for ending in ("png", "svg"):
-            results.write_bytes(f"figures/{name}.{ending}", figure_bytes(figure, ending))
+    setup.write_figures(figures)
     results.write_record({**setup.record(), "findings": found.sentences()})
 
 

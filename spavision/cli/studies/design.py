@@ -109,7 +109,6 @@ def _sentences(found: Design) -> list[str]:
 def _write(setup: Setup, found: Design, sentences: list[str]) -> None:
     from spavision.correlate.study.band import band
     from spavision.correlate.study.figures import band_figure, sweep_figure
-    from spavision.workflow.pictures import figure_bytes
 
     results = setup.results
     results.write_text("design.csv", csv_text(found.table()))
@@ -120,7 +119,5 @@ def _write(setup: Setup, found: Design, sentences: list[str]) -> None:
         around: Band = band(found.candidates[0].path, found.scatter)
         results.write_text("tolerance.csv", csv_text(around.table()))
         figures["tolerance"] = band_figure(around, title=labels[0])
-    for name, figure in figures.items():
-        for ending in ("png", "svg"):
-            results.write_bytes(f"figures/{name}.{ending}", figure_bytes(figure, ending))
+    setup.write_figures(figures)
     results.write_record({**setup.record(), "findings": sentences})

@@ -18,6 +18,8 @@ from spavision.table_text import csv_text
 from spavision.workflow.progress import progress_bar
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from spavision.correlate.study.case import Case, CaseResult
     from spavision.correlate.study.case_files import CaseFolder
     from spavision.correlate.study.execution import Machine
@@ -169,6 +171,14 @@ class Setup:
             output.warn(f"case {row['case']} {row['status']}: {row['reason']}")
         if len(bad) > _REASONS_SHOWN:
             output.warn(f"{len(bad)} of {len(frame)} cases failed or stopped; failed.csv lists them all")
+
+    def write_figures(self, figures: dict[str, Figure]) -> None:
+        """Write figures by name, as PNG and SVG."""
+        from spavision.workflow.pictures import figure_bytes
+
+        for name, figure in figures.items():
+            for ending in ("png", "svg"):
+                self.results.write_bytes(f"figures/{name}.{ending}", figure_bytes(figure, ending))
 
     def record(self) -> dict[str, Any]:
         """Return what ``run.json`` keeps of the study."""

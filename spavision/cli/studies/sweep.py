@@ -66,7 +66,6 @@ def _write_paths(setup: Setup, cases: Any, results: Any) -> None:
     import pandas as pd
 
     from spavision.correlate.study.figures import sweep_figure
-    from spavision.workflow.pictures import figure_bytes
 
     paths = [result.path(setup.pressures_kPa) for result in results]
     tables = [
@@ -76,8 +75,7 @@ def _write_paths(setup: Setup, cases: Any, results: Any) -> None:
     setup.results.write_text("paths.csv", csv_text(pd.concat(tables)))
     labels = [", ".join(f"{name} {_cell(value)}" for name, value in case.values.items()) for case in cases]
     figure = sweep_figure(paths, labels, title="Tip paths of the sweep")
-    for ending in ("png", "svg"):
-        setup.results.write_bytes(f"figures/sweep.{ending}", figure_bytes(figure, ending))
+    setup.write_figures({"sweep": figure})
 
 
 def _cell(value: Any) -> str:

@@ -49,12 +49,10 @@ def tolerance(file: Path, **given: Any) -> None:
 
 def _write(setup: Setup, found: Band) -> None:
     from spavision.correlate.study.figures import band_figure
-    from spavision.workflow.pictures import figure_bytes
 
     setup.results.write_text(BAND_NAME, csv_text(found.table()))
     figure = band_figure(found, title=f"{found.n_cases} cases, {setup.study.study.model} model")
-    for ending in ("png", "svg"):
-        setup.results.write_bytes(f"figures/tolerance.{ending}", figure_bytes(figure, ending))
+    setup.write_figures({"tolerance": figure})
     setup.results.write_record(setup.record())
 
 

@@ -97,7 +97,6 @@ def _write(setup: Setup, found: Update) -> None:
     import pandas as pd
 
     from spavision.correlate.study.update_figures import comparison_figure, posterior_figure
-    from spavision.workflow.pictures import figure_bytes
 
     names = [one.suspect.name for one in found.parameters]
     correlations = pd.DataFrame(found.posterior.correlation, columns=names)
@@ -108,9 +107,7 @@ def _write(setup: Setup, found: Update) -> None:
     results.write_text("correlations.csv", csv_text(correlations))
     results.write_text("updated.toml", _experiment_text(found))
     figures = {"posterior": posterior_figure(found), "paths": comparison_figure(found)}
-    for name, figure in figures.items():
-        for ending in ("png", "svg"):
-            results.write_bytes(f"figures/{name}.{ending}", figure_bytes(figure, ending))
+    setup.write_figures(figures)
     results.write_record({**setup.record(), "findings": found.sentences()})
 
 

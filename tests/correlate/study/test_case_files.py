@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
@@ -136,3 +137,10 @@ def test_scheduler_that_does_not_answer_is_told(stand_in: ModuleType, monkeypatc
             advance=silent,
             evaluate=stand_in.linear,
         )
+
+
+def test_worker_with_another_version_says_so() -> None:
+    (case,) = wall_cases([2.0])
+    result = evaluate(replace(case, version={"spavision": "0.0.7", "model": "abc"}))
+    assert result.status == "failed"
+    assert "the study needs 0.0.7 (model abc); install it there" in result.reason

@@ -6,7 +6,18 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-STRESS_UNITS_MPa = {"MPa": 1.0, "kPa": 1e-3, "Pa": 1e-6, "N/mm2": 1.0, "psi": 6.894757e-3}
+STRESS_UNITS_MPa = {
+    "MPa": 1.0,
+    "kPa": 1e-3,
+    "Pa": 1e-6,
+    "GPa": 1e3,
+    "N/mm2": 1.0,
+    "N/cm2": 1e-2,
+    "N/m2": 1e-6,
+    "bar": 0.1,
+    "kgf/cm2": 9.80665e-2,
+    "psi": 6.894757e-3,
+}
 """Megapascals in one unit (psi: NIST SP 811, appendix B)."""
 
 STRAIN_MEASURES = ("strain", "stretch", "true strain")
@@ -23,7 +34,12 @@ _UNITS = (
     ("MPa", re.compile(r"\bmpa\b")),
     ("kPa", re.compile(r"\bkpa\b")),
     ("Pa", re.compile(r"\bpa\b")),
-    ("N/mm2", re.compile(r"n/mm(2|²|\^2)")),
+    ("GPa", re.compile(r"\bgpa\b")),
+    ("N/mm2", re.compile(r"\bn/mm(2|²|\^2)")),
+    ("N/cm2", re.compile(r"\bn/cm(2|²|\^2)")),
+    ("N/m2", re.compile(r"\bn/m(2|²|\^2)")),
+    ("bar", re.compile(r"\bbar\b")),
+    ("kgf/cm2", re.compile(r"\bkgf?/cm(2|²|\^2)")),
     ("psi", re.compile(r"\bpsi\b")),
 )
 

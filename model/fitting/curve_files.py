@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -44,6 +45,9 @@ _MODE_CODES = {"ut": TENSION, "uc": COMPRESSION, "et": "equibiaxial", "bt": "equ
 """Whole names of files or folders that do."""
 
 _PREAMBLE_LENGTH = 2000
+
+_LARGE_STRAIN = 3.0
+"""A strain without a unit that goes further may be in percent."""
 
 
 @dataclass(frozen=True)
@@ -128,11 +132,17 @@ def _points(
 
 def _text_of(path: Path) -> str:
     try:
-        return path.read_text(encoding="utf-8-sig")
+        content = path.read_bytes()
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror}); name an existing text file") from error
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return content.decode("utf-16", errors="replace")
+    if b"\0" in content:
+        raise InputError(f"{path}: is not a text file; save the table as CSV")
+    try:
+        return content.decode("utf-8-sig")
     except UnicodeDecodeError:
-        return path.read_text(encoding="latin-1")
+        return content.decode("latin-1")
 
 
 def _short_name(path: Path) -> str:
@@ -166,10 +176,20 @@ def _stretch(
         notes = (*notes, "strain taken as engineering strain")
     values = np.array(table.column(column.index, source=source)) * STRAIN_UNITS[unit]
     _refuse_empty(values, names[column.index], source)
+    if measure != "stretch" and (form.strain_unit or column.unit) is None:
+        notes = (*notes, *_fraction_notes(float(np.nanmax(np.abs(values)))))
     if mode_name == COMPRESSION:
         values, sign_notes = with_compression_negative(values, measure)
         notes = (*notes, *sign_notes)
     return stretch_from(values, measure, source=source), notes
+
+
+def _fraction_notes(largest: float) -> tuple[str, ...]:
+    if largest <= _LARGE_STRAIN:
+        return ()
+    return (
+        f"strain taken as a fraction, up to {100.0 * largest:.4g} %: --strain-unit percent if it is in percent",
+    )
 
 
 def _stress(

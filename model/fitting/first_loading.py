@@ -17,6 +17,9 @@ REVERSAL = 0.01
 OFFSET = 0.002
 """Share of the range from which a stress at zero strain, or a strain at zero stress, is an offset."""
 
+_LARGEST_OFFSET = 0.5
+"""Strain at zero stress that is no slack of a specimen any more."""
+
 _LARGEST_STRETCH = 30.0
 """No silicone or rubber goes there: the strain must be in percent."""
 
@@ -62,7 +65,8 @@ def stretch_from(values: FloatArray, measure: str, *, source: str) -> FloatArray
     if np.nanmin(stretch) <= 0.0:
         raise InputError(
             f"{source}: {measure} goes down to {np.nanmin(values):g}, which no body survives; give "
-            "--strain-unit percent or --strain-measure stretch if it is one of these"
+            f"{'--strain-measure strain' if measure == 'stretch' else '--strain-unit percent'} if that is "
+            "what it is"
         )
     if np.nanmax(stretch) > _LARGEST_STRETCH:
         raise InputError(
@@ -110,7 +114,7 @@ def first_loading(points: Points, *, source: str) -> Points:
             f"{source}: {len(points.stretch)} rows have both strain and stress, expected two or more; a "
             "column may be empty"
         )
-    return _through_origin(_up_to_reversal(_with_stress_sign(points, source)))
+    return _through_origin(_up_to_reversal(_with_stress_sign(points, source)), source)
 
 
 def _with_stress_sign(points: Points, source: str) -> Points:
@@ -154,7 +158,7 @@ def _crosses_rest(points: Points) -> bool:
     return bool(np.any(points.stretch > 1.0) and np.any(points.stretch < 1.0))
 
 
-def _through_origin(points: Points) -> Points:
+def _through_origin(points: Points, source: str) -> Points:
     """Take off a stress at zero strain, or a strain at which the stress starts from zero."""
     strain, stress = points.stretch - 1.0, points.stress_MPa
     reach, load = np.abs(strain).max(), np.abs(stress).max()
@@ -164,6 +168,11 @@ def _through_origin(points: Points) -> Points:
         note = f"stress of {1e3 * stress[0]:.3g} kPa at zero strain: the curve is shifted by it"
         return Points(points.stretch, stress - stress[0], (*points.notes, note))
     if abs(stress[0]) <= 1e-6 * load and abs(strain[0]) > OFFSET * reach:
+        if strain[0] > _LARGEST_OFFSET:
+            raise InputError(
+                f"{source}: strain is {strain[0]:.3g} at zero stress; give --strain-measure stretch if it is "
+                "that, else take the slack out of the file"
+            )
         note = f"strain of {100 * strain[0]:.3g} % at zero stress: the curve is shifted by it"
         return Points(points.stretch / points.stretch[0], stress, (*points.notes, note))
     return points

@@ -108,8 +108,8 @@ def strain_transition(strain: FloatArray, stress_MPa: FloatArray, *, name: str) 
     if not 0.0 < crossing < strain[-1]:
         raise InputError(
             f"{name}: the lines of the primary and the secondary modulus meet at {crossing:.1%} strain, "
-            f"outside the test of 0 to {strain[-1]:.1%}, so there is no transition; pull the test further, or "
-            "do without it"
+            f"outside the test of 0 to {strain[-1]:.1%}, so there is no transition; pull the test further, "
+            "or do without it"
         )
     return StrainTransition(float(crossing), primary, secondary)
 

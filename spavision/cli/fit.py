@@ -42,7 +42,10 @@ DEFAULT_DENSITY_G_PER_CM3 = 1.1
 @click.option("--strain-measure", type=click.Choice(["strain", "stretch", "true strain"]))
 @click.option("--strain-unit", type=click.Choice(["fraction", "percent"]))
 @click.option("--stress-measure", type=click.Choice(["nominal", "true"]))
-@click.option("--stress-unit", type=click.Choice(["MPa", "kPa", "Pa", "N/mm2", "psi"]))
+@click.option(
+    "--stress-unit",
+    type=click.Choice(["MPa", "kPa", "Pa", "GPa", "N/mm2", "N/cm2", "N/m2", "bar", "kgf/cm2", "psi"]),
+)
 @click.option("--window", help="Engineering strains to fit, such as -0.3:2 (the article's) [default: all].")
 @click.option("--weights", help="Weight of each file, such as 1,1,0.5, or balanced: as much for each file.")
 @click.option("--transition", is_flag=True, help="Strain transition point by the article's procedure.")

@@ -39,6 +39,8 @@ WRITTEN = {
     "preamble": "Machine;X\nDate;2021\n;;\nTime (s);Strain;Stress (MPa)\n"
     + rows(STRAIN, STRAIN, STRESS_MPa, separator=";"),
     "comments, BOM": "\ufeff# measured by hand, 12 of 13\nstrain, stress_MPa\n" + rows(STRAIN, STRESS_MPa),
+    "bar": "strain,stress (bar)\n" + rows(STRAIN, 10 * STRESS_MPa),
+    "per square metre": "strain,stress (N/m²)\n" + rows(STRAIN, 1e6 * STRESS_MPa),
     "falling": "strain,stress_MPa\n" + rows(STRAIN[::-1], STRESS_MPa[::-1]),
 }
 
@@ -49,6 +51,22 @@ def test_one_curve_written_in_many_ways_reads_the_same(tmp_path, text):
     np.testing.assert_allclose(curve.stretch, STRETCH, rtol=1e-9)
     np.testing.assert_allclose(curve.stress_MPa, STRESS_MPa, rtol=1e-9, atol=1e-12)
     assert curve.mode.name == "uniaxial"
+
+
+def test_a_machine_s_utf_16_file_reads(tmp_path):
+    file = tmp_path / "tension.csv"
+    file.write_text("strain;stress_MPa\n" + rows(STRAIN, STRESS_MPa, separator=";"), encoding="utf-16")
+    np.testing.assert_allclose(read_curve(file).stress_MPa, STRESS_MPa, rtol=1e-9, atol=1e-12)
+
+
+def test_a_large_strain_without_a_unit_is_told(tmp_path):
+    text = rows(10 * STRAIN, STRESS_MPa)
+    notes = {
+        header: " | ".join(read_curve(write(tmp_path / "a.csv", f"{header},stress_MPa\n{text}")).notes)
+        for header in ("strain", "strain %")
+    }
+    assert "up to 2000 %: --strain-unit percent" in notes["strain"]
+    assert "--strain-unit" not in notes["strain %"]
 
 
 def test_options_go_before_what_the_file_says(tmp_path):
@@ -186,6 +204,9 @@ def test_rows_with_gaps_are_left_out_and_told(tmp_path):
         ("strain,stress_MPa\n0,0\n100,0.1\n200,0.3\n", "--strain-unit percent"),
         ("strain,stress_MPa\n0,0\n-1.5,-0.1\n", "which no body survives"),
         ("strain,stress_MPa\n0,0\n1,-0.1\n", "--mode compression"),
+        ("strain,stress_MPa\n1,0\n1.5,0.1\n2,0.2\n", "--strain-measure stretch"),
+        ("stretch,stress_MPa\n0,0\n1,0.1\n", "--strain-measure strain"),
+        ("PK\0\0", "is not a text file"),
     ],
 )
 def test_bad_files_are_told(tmp_path, text, sentence):

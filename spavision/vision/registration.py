@@ -16,8 +16,8 @@ WIDEST_SHIFT_SQUARES = 20
 SMALLEST_CERTAINTY = 3.0
 """Lead of the best shift, over the disagreement that it leaves, from which its index is trusted."""
 
-LEAST_CERTAINTY = 1.5
-"""Below this the shift is a guess. On renders wrong shifts stay below 1.4; with the clamp in view, right ones
+LEAST_CERTAINTY = 2.0
+"""Below this the shift is a guess. Wrong shifts stay below 1.6 on renders; with the clamp in view, right ones
 reach 4 to 7."""
 
 BLOCK_SQUARES = 6

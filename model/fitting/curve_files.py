@@ -188,7 +188,7 @@ def _fraction_notes(largest: float) -> tuple[str, ...]:
     if largest <= _LARGE_STRAIN:
         return ()
     return (
-        f"strain taken as a fraction, up to {100.0 * largest:.4g} %: --strain-unit percent if it is in percent",
+        f"strain taken as a fraction, up to {100.0 * largest:.4g} %: --strain-unit percent if it is percent",
     )
 
 

@@ -28,6 +28,7 @@ def tolerance(file: Path, **given: Any) -> None:
     """
     from spavision.cli import output
     from spavision.correlate.study.band import band
+    from spavision.correlate.study.plan import refuse_failed
     from spavision.correlate.study.sampling import draw_shares, values_at
 
     setup = prepare("tolerance", file, given)
@@ -36,6 +37,7 @@ def tolerance(file: Path, **given: Any) -> None:
     points = draw_shares(len(suspects), study.cases, sampling=study.sampling, seed=study.seed)
     cases = [setup.case({}), *(setup.case(values) for values in values_at(suspects, points))]
     nominal, *results = setup.run(cases, title="tolerance")
+    refuse_failed(nominal)
     setup.write_cases(cases[1:], results)
     found = band(nominal.path(setup.pressures_kPa), results)
     _write(setup, found)

@@ -3,14 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
-from .continuation import AcceptedStep
+from .continuation import AcceptedStep, RampPlace
 from .elements import FloatArray
 from .equilibrium import Equilibrium, State
 from .newton import NewtonResult
 from .simulation import StepRecord
+
+
+@dataclass(frozen=True)
+class Checkpoint:
+    """What a pressure ramp has done so far, and all that it needs to go on.
+
+    Parameters
+    ----------
+    place : RampPlace
+    steps : tuple of StepRecord
+    displacement_mm : array, shape (n_pressures, n_nodes, 3)
+        NaN where not yet reached.
+    enclosed_volume_mm3 : array, shape (n_pressures,)
+    energy_at_rest_mJ, gravity_work_at_rest_mJ : float
+        Of the half model, from which the records count.
+    """
+
+    place: RampPlace
+    steps: tuple[StepRecord, ...]
+    displacement_mm: FloatArray
+    enclosed_volume_mm3: FloatArray
+    energy_at_rest_mJ: float
+    gravity_work_at_rest_mJ: float
 
 
 class Journal:
@@ -31,6 +55,25 @@ class Journal:
         self._first_energy = self._problem.strain_energy(hanging.state)
         self._first_gravity_work = self._problem.gravity_work(hanging.state)
         self.add(AcceptedStep(0.0, hanging))
+
+    def go_on(self, checkpoint: Checkpoint) -> None:
+        """Take up what an interrupted ramp had noted."""
+        self._first_energy = checkpoint.energy_at_rest_mJ
+        self._first_gravity_work = checkpoint.gravity_work_at_rest_mJ
+        self.steps = list(checkpoint.steps)
+        self.displacement_mm = checkpoint.displacement_mm.copy()
+        self.enclosed_volume_mm3 = checkpoint.enclosed_volume_mm3.copy()
+
+    def checkpoint(self, place: RampPlace) -> Checkpoint:
+        """Return what is noted so far, to go on from a place."""
+        return Checkpoint(
+            place=place,
+            steps=tuple(self.steps),
+            displacement_mm=self.displacement_mm,
+            enclosed_volume_mm3=self.enclosed_volume_mm3,
+            energy_at_rest_mJ=self._first_energy,
+            gravity_work_at_rest_mJ=self._first_gravity_work,
+        )
 
     def add(self, step: AcceptedStep) -> None:
         """Note an accepted step."""

@@ -15,9 +15,8 @@ from .elements import FloatArray
 from .equilibrium import Equilibrium
 from .geometry import ActuatorGeometry
 from .hex_mesh import HexMesh
-from .journal import Journal
+from .journal import Checkpoint, Journal
 from .linear_solver import LinearSolver, linear_solver
-from .newton import NewtonResult
 from .observe import centre_line, locate
 from .simulation import Simulation, SimulationSettings, StepRecord
 from .volume_control import volume_ramp
@@ -37,6 +36,8 @@ def simulate(
     pressures_kPa: FloatArray,
     settings: SimulationSettings | None = None,
     progress: Callable[[float], None] | None = None,
+    resume: Checkpoint | None = None,
+    keep: Callable[[Checkpoint], None] | None = None,
 ) -> Simulation:
     """Inflate the hanging actuator through the given pressures.
 
@@ -50,6 +51,10 @@ def simulate(
     settings : SimulationSettings, optional
     progress : callable, optional
         Told the pressure reached, in kPa, after each accepted step.
+    resume : Checkpoint, optional
+        Of the same ramp, interrupted under pressure control, which then goes on as if it had not been.
+    keep : callable, optional
+        Given a checkpoint after each accepted step under pressure control.
 
     Returns
     -------
@@ -70,12 +75,10 @@ def simulate(
     journal = Journal(problem, pressures, progress)
     stop: RampStoppedError | None = None
     try:
-        hanging = settle_under_gravity(
-            problem, gravity=settings.gravity, solver=solver, newton=settings.newton
-        )
-        journal.begin(hanging)
-        for step in _ramp(problem, hanging, pressures[pressures > 0.0], settings=settings, solver=solver):
+        for step in _ramp(problem, journal, pressures[pressures > 0.0], settings, solver, resume):
             journal.add(step)
+            if keep is not None and step.place is not None:
+                keep(journal.checkpoint(step.place))
     except RampStoppedError as error:
         stop = error
     return Simulation(
@@ -103,30 +106,39 @@ def _stop_reason(stop: RampStoppedError | None, settings: SimulationSettings) ->
 
 def _ramp(
     problem: Equilibrium,
-    hanging: NewtonResult,
+    journal: Journal,
     targets_kPa: FloatArray,
-    *,
     settings: SimulationSettings,
     solver: LinearSolver,
+    resume: Checkpoint | None,
 ) -> Iterator[AcceptedStep]:
-    """Inflate under the control asked for."""
-    if settings.control == "volume":
-        return volume_ramp(
-            problem,
-            hanging,
-            targets_kPa=targets_kPa,
-            gravity=float(settings.gravity),
-            solver=solver,
-            newton=settings.newton,
-            stepping=settings.volume_stepping,
-        )
-    return pressure_ramp(
+    """Let the actuator hang, or take up an interrupted ramp, and inflate it under the control asked for."""
+    newton, gravity = settings.newton, settings.gravity
+    if resume is None:
+        hanging = settle_under_gravity(problem, gravity=gravity, solver=solver, newton=newton)
+        journal.begin(hanging)
+        if settings.control == "volume":
+            yield from volume_ramp(
+                problem,
+                hanging,
+                targets_kPa=targets_kPa,
+                gravity=float(gravity),
+                solver=solver,
+                newton=newton,
+                stepping=settings.volume_stepping,
+            )
+            return
+        start = ramp_at_rest(problem, hanging, solver=solver, stepping=settings.stepping)
+    else:
+        journal.go_on(resume)
+        start = resume.place
+    yield from pressure_ramp(
         problem,
-        ramp_at_rest(problem, hanging, solver=solver, stepping=settings.stepping),
+        start,
         targets_kPa=targets_kPa,
-        gravity=settings.gravity,
+        gravity=gravity,
         solver=solver,
-        newton=settings.newton,
+        newton=newton,
         stepping=settings.stepping,
     )
 

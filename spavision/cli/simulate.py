@@ -58,7 +58,7 @@ def simulate(pressures_kpa: str, write_deck: Path | None, model: str, **given: A
     if model == "reduced":
         _simulate_reduced(experiment, pressures, results, given)
         return
-    simulation = run_model(experiment, pressures, quiet=given["quiet"])
+    simulation = run_model(experiment, pressures, quiet=given["quiet"], unfinished=results.unfinished)
     save_simulation(results, simulation, experiment)
     _report(simulation, results.path, as_json=given["as_json"], quiet=given["quiet"])
 

@@ -7,6 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from spavision import __version__
 from spavision.errors import InputError, InputWarning
 from spavision.experiment import Experiment
 from spavision.results import ResultsFolder
@@ -16,12 +17,23 @@ from spavision.tip_path import FloatArray
 from .progress import progress_bar
 
 if TYPE_CHECKING:
+    from spavision.model.journal import Checkpoint
     from spavision.model.reduced.ramp import ReducedSimulation
     from spavision.model.simulate import Simulation, SimulationSettings
 
 
-def run_model(experiment: Experiment, pressure_kPa: FloatArray, *, quiet: bool) -> Simulation:
+def run_model(
+    experiment: Experiment, pressure_kPa: FloatArray, *, quiet: bool, unfinished: Path | None = None
+) -> Simulation:
     """Run the finite-element model of the experiment's actuator at the given pressures.
+
+    Parameters
+    ----------
+    experiment : Experiment
+    pressure_kPa : array, shape (n,)
+    quiet : bool
+    unfinished : Path, optional
+        Folder where an interrupted ramp leaves its steps, and from where the same ramp goes on.
 
     Raises
     ------
@@ -29,19 +41,31 @@ def run_model(experiment: Experiment, pressure_kPa: FloatArray, *, quiet: bool) 
         If the crimp ratio is not known, or geometry, materials or pressures are not valid.
     """
     from spavision.correlate.model_inputs import model_inputs
+    from spavision.model.checkpoint_file import read_checkpoint, write_checkpoint
     from spavision.model.simulate import simulate
 
     inputs = model_inputs(experiment)
+    run = f"{__version__} {inputs!r} {pressure_kPa.tolist()}"
+    file = None if unfinished is None else unfinished / "ramp.npz"
+    done = None if file is None else read_checkpoint(file, run=run)
     for note in inputs.notes:
         warnings.warn(note, InputWarning, stacklevel=2)
     with progress_bar("model", total=float(pressure_kPa.max()), quiet=quiet) as advance:
-        return simulate(
-            inputs.geometry,
-            crimp_ratio=inputs.crimp_ratio,
-            pressures_kPa=pressure_kPa,
-            settings=inputs.settings,
-            progress=lambda reached_kPa: advance(f"{reached_kPa:.0f} kPa", reached_kPa),
-        )
+        last: list[Checkpoint] = []
+        try:
+            return simulate(
+                inputs.geometry,
+                crimp_ratio=inputs.crimp_ratio,
+                pressures_kPa=pressure_kPa,
+                settings=inputs.settings,
+                progress=lambda reached_kPa: advance(f"{reached_kPa:.0f} kPa", reached_kPa),
+                resume=done,
+                keep=lambda checkpoint: last.__setitem__(slice(None), [checkpoint]),
+            )
+        except KeyboardInterrupt:
+            if file is not None and last:
+                write_checkpoint(file, last[0], run=run)
+            raise
 
 
 def run_reduced_model(experiment: Experiment, pressure_kPa: FloatArray) -> ReducedSimulation:

@@ -13,6 +13,7 @@ from .geometry import ActuatorGeometry
 from .materials.library import find_material
 from .materials.solid import SolidMaterial
 from .materials.stiffness import stiffened
+from .memory import refuse_too_large
 from .simulation import SimulationSettings
 
 
@@ -55,10 +56,11 @@ def actuator_problem(
     Raises
     ------
     InputError
-        If crimp ratio, material names or mesh level are unusable.
+        If crimp ratio, material names or mesh level are unusable, or the mesh is too large for the memory.
     """
     solids = actuator_materials(crimp_ratio=crimp_ratio, settings=settings)
     mesh = actuator_mesh(geometry, level=settings.mesh_level)
+    refuse_too_large(mesh)
     is_fixed = np.zeros((len(mesh.nodes_mm), 3), dtype=bool)
     is_fixed[mesh.node_sets["clamp"]] = True
     is_fixed[mesh.node_sets["symmetry"], 2] = True

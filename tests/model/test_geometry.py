@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from spavision.errors import InputError
+from spavision.model import memory
 from spavision.model.actuator_mesh import MESH_LEVELS, REGIONS, actuator_mesh
 from spavision.model.cavity import Cavity
 from spavision.model.element_geometry import element_geometry
@@ -86,3 +87,13 @@ def test_bad_dimensions_are_named(change: dict[str, float], names: tuple[str, st
 def test_unknown_level() -> None:
     with pytest.raises(InputError, match=r"'coarse'.*draft, default, fine"):
         actuator_mesh(SMALL, level="coarse")
+
+
+def test_a_mesh_beyond_the_memory_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh = actuator_mesh(SMALL, level="draft")
+    # measured: some 17 kB an unknown, and what the libraries take
+    assert 0.017e-3 * mesh.n_dofs < memory.foreseen_memory_GB(mesh) < 1.0
+    memory.refuse_too_large(mesh)
+    monkeypatch.setattr(memory, "_installed_memory_GB", lambda: 0.3)
+    with pytest.raises(InputError, match=r"GB of memory.*0\.3 GB; take a coarser mesh level"):
+        memory.refuse_too_large(mesh)

@@ -18,7 +18,7 @@ RADIUS_SIGMA = 0.03
 """Relative uncertainty of the radius that a partly hidden rim is fitted with: beside a cover, half contrast
 lies elsewhere than on the whole rims that the radius is taken from."""
 
-RIM_FLOOR_PX = 0.01
+RIM_FLOOR_PX = 0.02
 """Systematic part of a rim's centre: shading, pixel grid, compression."""
 
 BUDGET_NAMES = (

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import emcee
 import numpy as np
 from scipy.optimize import least_squares
-from scipy.stats import qmc
+from scipy.stats import norm, qmc
 
 from spavision.tip_path import FloatArray
 
@@ -17,6 +17,8 @@ from .suspects import Suspect
 
 _EDGE = 0.005
 _STARTS = 8
+_INSIDE = 1e-6
+_LARGEST_LOG = 15.0
 _BURN_IN = 0.25
 _LENGTHS_NEEDED = 50
 """Autocorrelation times that a chain must be long (emcee's documentation)."""
@@ -114,7 +116,8 @@ class Posterior:
 def sample_posterior(misfit: Misfit, start: FloatArray, *, steps: int, seed: int) -> Posterior:
     """Draw from the posterior with emcee's affine-invariant ensemble.
 
-    The prior is the suspects' distributions (uniform in the unit cube). Readings scatter normally with
+    The prior is the suspects' distributions: uniform in the unit cube, walked through in standard normal
+    coordinates, in which it has no edges. Readings scatter normally with
     u_D² + model error²; the model error is unknown, its prior half-normal with the nominal distance as scale.
 
     Parameters
@@ -131,28 +134,31 @@ def sample_posterior(misfit: Misfit, start: FloatArray, *, steps: int, seed: int
     variance = misfit.sigma_of_readings_mm**2
 
     def log_probability(walkers: FloatArray) -> FloatArray:
-        points, log_error = walkers[:, :n], walkers[:, n]
-        inside = np.all((points > 0.0) & (points < 1.0), axis=1) & (np.abs(log_error) < 15.0)
-        result = np.full(len(walkers), -np.inf)
-        if inside.any():
-            error = np.exp(log_error[inside])[:, None]
-            total = variance + error**2
-            residual = misfit.residuals_mm(np.clip(points[inside], 1e-6, 1.0 - 1e-6))
-            likelihood = -0.5 * np.sum(residual**2 / total + np.log(total), axis=1)
-            # The last term is the Jacobian of the logarithm.
-            result[inside] = likelihood - 0.5 * (error[:, 0] / scale) ** 2 + log_error[inside]
-        return result
+        places, log_error = walkers[:, :n], np.clip(walkers[:, n], -_LARGEST_LOG, _LARGEST_LOG)
+        error = np.exp(log_error)[:, None]
+        total = variance + error**2
+        residual = misfit.residuals_mm(_shares(places))
+        likelihood = -0.5 * np.sum(residual**2 / total + np.log(total), axis=1)
+        # Half-normal in the error itself: the last term is the Jacobian of its logarithm.
+        prior = -0.5 * np.sum(places**2, axis=1) - 0.5 * (error[:, 0] / scale) ** 2 + log_error
+        return np.asarray(likelihood + prior)
 
     n_walkers = 2 * max(16, 2 * (n + 1))
     residual = np.sqrt(np.mean(misfit.residuals_mm(start[None]) ** 2))
     first = np.empty((n_walkers, n + 1))
-    first[:, :n] = np.clip(start + 0.05 * random.standard_normal((n_walkers, n)), 0.01, 0.99)
+    first[:, :n] = norm.ppf(np.clip(start, 0.02, 0.98)) + 0.3 * random.standard_normal((n_walkers, n))
     first[:, n] = np.log(max(residual, 1e-3)) + 0.1 * random.standard_normal(n_walkers)
-    sampler = emcee.EnsembleSampler(n_walkers, n + 1, log_probability, vectorize=True)
+    moves = [(emcee.moves.DEMove(), 0.8), (emcee.moves.DESnookerMove(), 0.2)]
+    sampler = emcee.EnsembleSampler(n_walkers, n + 1, log_probability, moves=moves, vectorize=True)
     sampler.random_state = random.get_state()
     sampler.run_mcmc(first, steps)
     burn_in = int(_BURN_IN * steps)
     draws = sampler.get_chain(discard=burn_in, thin=max(1, steps // 400), flat=True)
     lengths = sampler.get_autocorr_time(discard=burn_in, tol=0)
     long_enough = bool(np.all(_LENGTHS_NEEDED * lengths < steps - burn_in))
-    return Posterior(misfit.emulator.suspects, draws[:, :n], np.exp(draws[:, n]), long_enough)
+    return Posterior(misfit.emulator.suspects, _shares(draws[:, :n]), np.exp(draws[:, n]), long_enough)
+
+
+def _shares(places: FloatArray) -> FloatArray:
+    """Return points of the unit cube from standard normal coordinates."""
+    return np.asarray(np.clip(norm.cdf(places), _INSIDE, 1.0 - _INSIDE))

@@ -21,6 +21,13 @@ def _chain_slope(i1, _i2):
     return 0.1 * 3.2 / (6.0 * chain) * beta
 
 
+def ogden_stress(stretch, mode):
+    """Nominal stress of BODY, Σ μ (λ^(α−1) − λ^(−βα−1)) with β = 1/2, 2, 1 (closed-forms.md, 1, 3, 4)."""
+    share = {"uniaxial": 0.5, "equibiaxial": 2.0, "planar": 1.0}[mode]
+    terms = zip(BODY.mu_MPa, BODY.alpha, strict=True)
+    return sum(mu * (stretch ** (a - 1.0) - stretch ** (-share * a - 1.0)) for mu, a in terms)
+
+
 def _none(_i1, _i2):
     return 0.0
 
@@ -52,6 +59,8 @@ LAWS = {"Ogden": BODY, **{name: entry[0] for name, entry in INVARIANT_LAWS.items
 
 def textbook_stress(name, stretch, mode):
     """Nominal stress at one stretch from W₁ and W₂ (Holzapfel, Nonlinear Solid Mechanics, section 6.5)."""
+    if name == "Ogden":
+        return ogden_stress(stretch, mode)
     _, slope_1, slope_2 = INVARIANT_LAWS[name]
     x = stretch
     i1, i2, factor, weight = {

@@ -81,7 +81,8 @@ def calibrated_slack_fibre(
     InputError
         If the curve has no transition.
     """
-    factor = float(np.clip(_primary_ratio(curve, matrix), *STIFFNESS_RANGE))
+    ratio = _primary_ratio(curve, matrix)
+    factor = float(np.clip(ratio, *STIFFNESS_RANGE))
     fit = slack_fibre_at_transition(curve, stiffened(matrix, factor))
     whole = replace(paper, transition_factor=1.0).slack_strain(crimp_ratio)
     calibrated = replace(
@@ -95,6 +96,12 @@ def calibrated_slack_fibre(
         f"stiffness {fit.fibre.modulus_MPa:.3g} MPa, matrix times {factor:.3g}; "
         f"R² {fit.goodness.r_squared:.3f}"
     )
+    if factor != ratio:
+        doubt = (
+            f"{curve.name}: the primary modulus is {ratio:.3g} times the matrix's own, beyond what is "
+            f"believed: {factor:g} is taken; check the matrix and the units"
+        )
+        return SlackFibreComposite(calibrated, factor, (note, doubt))
     return SlackFibreComposite(calibrated, factor, (note,))
 
 

@@ -157,10 +157,12 @@ def pull_coupon(
     Raises
     ------
     InputError
-        If a setting is out of range.
+        If a setting is out of range, or the paper does not fit into the layer.
     """
     settings = settings or CouponSettings()
     end = settings.last_strain(geometry)
+    if paper.modulus_MPa > 0.0:
+        geometry.refuse_thick_paper(paper.thickness_mm)
     with one_thread():
         test = _Test(Cell(geometry, matrix=matrix, paper=paper, settings=settings.cell))
         while test.ended_by == "" and test.strains[-1] < end - 1e-12:

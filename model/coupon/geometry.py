@@ -60,6 +60,15 @@ class CouponGeometry:
                 f"legs are left between the folds of a wave of {self.wavelength_mm:g} mm"
             )
 
+    def refuse_thick_paper(self, paper_mm: float) -> None:
+        """Raise `InputError` where wave and paper, of this thickness in mm, are together too high."""
+        high = 2.0 * self.amplitude_mm + paper_mm
+        if high > self.thickness_mm:
+            raise InputError(
+                f"wave and paper are {high:.4g} mm high and do not fit into thickness_mm "
+                f"{self.thickness_mm:g}; take thinner paper, a shorter wavelength or a thicker layer"
+            )
+
     @property
     def amplitude_mm(self) -> float:
         """From mid-line to peak of the sharp triangle."""

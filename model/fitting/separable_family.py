@@ -15,6 +15,7 @@ from .solution import NoSuchLawError, Solution
 from .variable_projection import Minimum, best_of_many_starts
 
 STARTS_PER_TERM = 8
+"""Twice as many where moduli of any sign are let in: there are more local minima then."""
 
 _AT_BOUND = 1e-3
 """Share of the range of a shape variable within which it counts as at the end: the solver stays inside."""
@@ -94,7 +95,7 @@ class SeparableFamily:
         allow_unstable : bool
             Let the moduli have any sign.
         starts : int, optional
-            How many random starts, `STARTS_PER_TERM` for each term unless given.
+            How many random starts; after `STARTS_PER_TERM` unless given.
         seed : int
             Which.
 
@@ -105,7 +106,9 @@ class SeparableFamily:
         """
         bounds = self.shape_bounds(data)
         rng = np.random.default_rng(seed)
-        candidates = [self.draw(rng, bounds) for _ in range(starts or STARTS_PER_TERM * self.terms)]
+        if starts is None:
+            starts = STARTS_PER_TERM * self.terms * (2 if allow_unstable else 1)
+        candidates = [self.draw(rng, bounds) for _ in range(starts)]
         minima = best_of_many_starts(self.shape, data, candidates, bounds=bounds, any_sign=allow_unstable)
         for minimum in minima:
             if (minimum.moduli.sum() > 0.0) and np.isfinite(minimum.cost):

@@ -63,6 +63,7 @@ def test_options_reach_the_coupon(spavision):
         (("--crimp", "0.3", "--matrix", "Gold"), ("Gold", "Ecoflex 00-30")),
         (("--crimp", "0.3", "--paper", "Card"), ("Card", "Bond paper")),
         (("--crimp", "0.3", "--paper-modulus-mpa", "-5"), ("modulus_MPa",)),
+        (("--crimp", "0.3", "--paper-thickness-mm", "3"), ("6 mm high", "thinner paper")),
     ],
 )
 def test_bad_options_are_refused(spavision, tmp_path, options, words):

@@ -43,6 +43,19 @@ def test_a_curve_calibrates_the_slack_fibre(tension_test):
     assert settings.composite is None
 
 
+def test_a_primary_modulus_beyond_belief_is_told(tmp_path):
+    """Ecoflex 30 times as stiff below the knee: ten times is what is taken."""
+    matrix = 30.0 * nominal_stress(find_material("Ecoflex 00-30").law, 1.0 + STRAIN, UNIAXIAL)
+    rows = [
+        f"{a:.6f},{b:.9f}" for a, b in zip(STRAIN, matrix + 80.0 * np.maximum(STRAIN - 0.4, 0), strict=True)
+    ]
+    path = tmp_path / "tension.csv"
+    path.write_text("\n".join(["strain,nominal_stress_MPa", *rows]) + "\n", encoding="utf-8")
+    found = inputs(curve=str(path))
+    assert found.settings.matrix_stiffness == 10.0
+    assert any("30 times the matrix's own" in note for note in found.notes)
+
+
 def test_a_curve_calibrates_one_ogden_law(tension_test):
     found = inputs(law="ogden", curve=tension_test)
     law = found.settings.composite.law

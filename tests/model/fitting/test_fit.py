@@ -107,8 +107,7 @@ def test_cold_start_finds_the_best_of_fifty(allow_unstable):
         law = family.solve(data, {}, allow_unstable=allow_unstable, starts=starts, seed=seed).law
         return np.sum((data.stress_from(law.derivatives(data.log_stretch)[0]) - data.stress_MPa) ** 2)
 
-    data_fit = residual(24, 0)
-    assert data_fit <= residual(50, 7) * (1.0 + 1e-6)
+    assert residual(None, 0) <= residual(50, 7) * (1.0 + 1e-6)
 
 
 def test_two_thousand_points_in_three_modes_take_less_than_two_seconds():

@@ -78,6 +78,8 @@ def _run(client: Client, evaluate: Evaluate, cases: Sequence[object]) -> Iterato
             submit(index, attempt + 1)
         elif error is None or isinstance(error, KilledWorker):
             yield lost(index)
+        elif isinstance(error, InputError):
+            raise error
         else:
             yield Finished(index, reason=f"on the cluster: {type(error).__name__}: {error}")
         fill()

@@ -17,11 +17,17 @@ from .case import Case, CaseResult, failed, model_version, version_text
 
 
 def evaluate(case: Case) -> CaseResult:
-    """Run the case's model in one thread; whatever goes wrong becomes the reason of a failed case."""
+    """Run the case's model in one thread; whatever goes wrong becomes the reason of a failed case.
+
+    Raises
+    ------
+    InputError
+        If the case was made for another version of the model than the one here.
+    """
     start = time.process_time()
     if case.version != model_version():
         here, wanted = version_text(model_version()), version_text(case.version)
-        return failed(case, f"the worker has spavision {here}, the study needs {wanted}; install it there")
+        raise InputError(f"a worker has spavision {here}, the study needs {wanted}; install it there")
     try:
         with one_thread():
             path = _tip_path(case)

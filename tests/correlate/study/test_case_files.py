@@ -139,8 +139,7 @@ def test_scheduler_that_does_not_answer_is_told(stand_in: ModuleType, monkeypatc
         )
 
 
-def test_worker_with_another_version_says_so() -> None:
+def test_worker_with_another_version_ends_the_study() -> None:
     (case,) = wall_cases([2.0])
-    result = evaluate(replace(case, version={"spavision": "0.0.7", "model": "abc"}))
-    assert result.status == "failed"
-    assert "the study needs 0.0.7 (model abc); install it there" in result.reason
+    with pytest.raises(InputError, match=r"the study needs 0\.0\.7 \(model abc\); install it there"):
+        evaluate(replace(case, version={"spavision": "0.0.7", "model": "abc"}))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import codecs
 import re
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -118,6 +119,28 @@ def read_curve(path: Path, form: CurveFormat | None = None) -> MeasuredCurve:
     return curve
 
 
+def with_distinct_names(curves: Sequence[MeasuredCurve], paths: Sequence[Path]) -> tuple[MeasuredCurve, ...]:
+    """Put the folder before the names that more than one file bears, and the file's number if need be.
+
+    Raises
+    ------
+    InputError
+        If a file is given twice.
+    """
+    for path in paths:
+        if sum(path.resolve() == other.resolve() for other in paths) > 1:
+            raise InputError(f"{path}: is given twice; leave one out (--weights gives a file more weight)")
+    names = [curve.name for curve in curves]
+    longer = [
+        f"{path.resolve().parent.name}/{path.stem}" if names.count(name) > 1 else name
+        for name, path in zip(names, paths, strict=True)
+    ]
+    return tuple(
+        replace(curve, name=f"{name} ({number})" if longer.count(name) > 1 else name)
+        for number, (curve, name) in enumerate(zip(curves, longer, strict=True), start=1)
+    )
+
+
 def _points(
     table: TextTable, names: tuple[str, ...], form: CurveFormat, mode_name: str, source: str
 ) -> Points:
@@ -203,6 +226,8 @@ def _stress(
         notes = (*notes, "stress taken as nominal stress")
     if unit is None:
         notes = (*notes, "stress taken to be in MPa")
+    if column.unit not in (None, unit):
+        notes = (*notes, f"stress taken to be in {unit} as told, though its column says {column.unit}")
     values = np.array(table.column(column.index, source=source)) * STRESS_UNITS_MPa[unit or "MPa"]
     _refuse_empty(values, names[column.index], source)
     return values, measure == "true", notes

@@ -124,7 +124,7 @@ def _fit_composite(results: Any, curves: Any, data: tuple[Path, ...], given: dic
 
 def _curves(data: tuple[Path, ...], given: dict[str, Any]) -> tuple[Any, ...]:
     """Read the files and cut them to the window."""
-    from spavision.model.fitting.curve_files import MODE_NAMES, CurveFormat, read_curve
+    from spavision.model.fitting.curve_files import MODE_NAMES, CurveFormat, read_curve, with_distinct_names
     from spavision.model.fitting.measured_curve import in_window
 
     modes = given["mode"]
@@ -147,7 +147,8 @@ def _curves(data: tuple[Path, ...], given: dict[str, Any]) -> tuple[Any, ...]:
             may_stiffen=given["transition"] or given["law"] == "slack-fibre",
         )
         curves.append(read_curve(path, form))
-    return in_window(curves, _window(given["window"])) if given["window"] else tuple(curves)
+    named = with_distinct_names(curves, data)
+    return in_window(named, _window(given["window"])) if given["window"] else named
 
 
 def _window(text: str) -> tuple[float, float]:

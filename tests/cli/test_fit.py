@@ -114,10 +114,25 @@ def test_standard_errors_between_replicates(spavision, tmp_path):
     assert parameter["standard_error"] == pytest.approx(0.05, rel=1e-6)
 
 
+def test_replicates_of_one_name_are_told_apart(spavision, tmp_path):
+    for folder in ("a", "b"):
+        (tmp_path / folder).mkdir()
+        write(tmp_path / folder / "tension.csv")
+    outcome = spavision("fit", "a/tension.csv", "b/tension.csv", "--law", "neo-hooke", "--json")
+    assert [curve["name"] for curve in json.loads(outcome.out)["curves"]] == ["a/tension", "b/tension"]
+
+
+def test_a_unit_told_against_the_column_s_is_noted(spavision, tmp_path):
+    write(tmp_path / "tension.csv")
+    outcome = spavision("fit", "tension.csv", "--law", "neo-hooke", "--stress-unit", "kPa")
+    assert "in kPa as told, though its column says MPa" in outcome.out
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
         (("none.csv",), ("none.csv", "cannot be read")),
+        (("tension.csv", "./tension.csv"), ("is given twice", "--weights")),
         (("tension.csv", "--law", "hooke"), ("hooke", "expected one of")),
         (("tension.csv", "--mode", "torsion"), ("--mode", "torsion")),
         (("tension.csv", "--mode", "planar", "--mode", "planar"), ("--mode", "2 times for 1 files")),

@@ -63,8 +63,12 @@ def user_materials(folder: Path | None = None) -> dict[str, Material]:
 
 
 def all_materials(folder: Path | None = None) -> dict[str, Material]:
-    """Return every material by name; one of the user's replaces a packaged one of the same name."""
-    return published_materials() | user_materials(folder)
+    """Return every material by name, each followed by its alternatives.
+
+    One of the user's replaces a packaged one of the same name.
+    """
+    materials = published_materials() | user_materials(folder)
+    return {material.name: material for material in sorted(materials.values(), key=_family_order)}
 
 
 def find_material(name: str, folder: Path | None = None) -> Material:

@@ -49,6 +49,14 @@ def test_own_materials_are_listed(spavision, tmp_path):
     assert "Jelly" in spavision("materials", "--materials", str(tmp_path)).out
 
 
+def test_own_alternatives_stand_below_their_material(spavision, tmp_path):
+    own = Material("Zebra gel", NeoHooke(0.04), 1.07, "own test", alternative_to="Ecoflex 00-30")
+    (tmp_path / "own.toml").write_text(material_text(own), encoding="utf-8")
+    listed = json.loads(spavision("materials", "--materials", str(tmp_path), "--json").out)["materials"]
+    names = [each["name"] for each in listed]
+    assert names.index("Ecoflex 00-30") < names.index("Zebra gel") < names.index("Mold Star 15")
+
+
 def test_bad_names_and_folders_are_told(spavision):
     assert spavision("materials", "Jelly").is_one_sentence_about("Jelly", "Ecoflex 00-30")
     assert spavision("materials", "--materials", "none").is_one_sentence_about("none", "--materials")

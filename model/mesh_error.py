@@ -35,10 +35,10 @@ ERROR_BOUNDS = {
 }
 """Up to the first extremum, at crimp ratios 0.2 and 0.3.
 
-Source: `benchmarks/fe_convergence.py`, an actuator of 4 voids against a converged path. At the first extremum
-itself the errors are 6.8, 0.5 and 0.2 % at crimp ratio 0.2 and 9.4, 1.7 and 0.8 % at 0.3 (of the full actuator,
-default: 1.8 % at 0.3). Beyond it the walls balloon, the sensitivity to the mesh grows and the numbers do not
-hold.
+Source: `benchmarks/fe_convergence.py`, an actuator of 4 voids against a converged path. At the first
+extremum itself the errors are 6.8, 0.5 and 0.2 % at crimp ratio 0.2 and 9.4, 1.7 and 0.8 % at 0.3 (of the
+full actuator, default: 1.8 % at 0.3). Beyond it the walls balloon, the sensitivity to the mesh grows and
+the numbers do not hold.
 """
 
 _COVERAGE = 2.0

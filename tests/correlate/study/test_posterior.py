@@ -53,7 +53,7 @@ def test_posterior_of_a_slope_is_that_of_linear_regression() -> None:
     best = best_point(misfit, seed=1)
     expected = float(PRESSURES @ misfit.target.measured_mm[1] / (PRESSURES @ PRESSURES))
     assert slope.value(float(best[0])) == pytest.approx(expected, abs=1e-3)
-    found = sample_posterior(misfit, best, steps=1500, seed=1)
+    found = sample_posterior(misfit, best, steps=700, seed=1)
     width = noise_mm / np.sqrt(PRESSURES @ PRESSURES)
     assert found.values.mean() == pytest.approx(expected, abs=0.3 * width)
     # The unknown model error can only widen it, here by less than half.

@@ -25,6 +25,9 @@ LEAST_SEEN_OVERALL = 0.5
 """Shares of the length along which an edge must be seen: on either side, and on both together."""
 
 LARGEST_SCATTER_SQUARES = 0.16
+LARGEST_SIGMA_SQUARES = 0.06
+"""Median standard uncertainty across the line beyond which there is none: 0.15 mm for 2.5 mm squares."""
+
 LARGEST_TAPER = 0.15
 SHORTEST_WIDTHS = 1.5
 MARKER_FROM_TIP = 0.35
@@ -166,6 +169,8 @@ def _checked(silhouette: Silhouette, marker_mm: FloatArray, square_mm: float) ->
     scatter = float(np.nanmedian(np.abs(residuals)))
     if scatter > LARGEST_SCATTER_SQUARES * square_mm:
         raise UnclearError("the edges found do not lie on a smooth outline")
+    if float(np.median(silhouette.sigma_across_mm)) > LARGEST_SIGMA_SQUARES * square_mm:
+        raise UnclearError("the edges are too blurred or too faint to place the centre line")
     half = line.half_width_mm
     if np.ptp(half) > LARGEST_TAPER * np.median(half):
         raise UnclearError("the outline found is not of even width")

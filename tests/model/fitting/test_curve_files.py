@@ -134,6 +134,14 @@ def test_compression_with_any_sign_reads_the_same(tmp_path, strain_sign, stress_
     np.testing.assert_allclose(curve.stress_MPa, stress, rtol=1e-9, atol=1e-12)
 
 
+def test_compression_told_by_the_columns_alone(tmp_path):
+    (tmp_path / "data").mkdir()
+    text = "compressive strain,compressive stress MPa\n0,0\n0.1,0.05\n0.2,0.12\n"
+    np.testing.assert_allclose(
+        read_curve(write(tmp_path / "data" / "a.csv", text)).strain, [0, -0.1, -0.2], atol=1e-12
+    )
+
+
 def test_true_measures_in_compression_with_positive_sign(tmp_path):
     stretch = np.linspace(1.0, 0.5, 11)
     nominal = 0.1 * (stretch - stretch**-2)
@@ -161,10 +169,10 @@ def test_positive_strains_that_nothing_names_are_doubted_by_the_shape(tmp_path):
 
 
 def test_a_stiffening_composite_in_tension_is_noted_and_rubber_is_not(tmp_path):
-    strain = np.linspace(0.0, 0.5, 51)
+    strain = np.linspace(0.0, 0.58, 59)
     rubber = 0.04 * ((1 + strain) - (1 + strain) ** -2)
-    bilinear = rubber + 2.0 * np.maximum(strain - 0.3, 0.0)
-    for stress, noted in ((rubber, False), (bilinear, True)):
+    composites = [rubber + stiffness * np.maximum(strain - 0.39, 0.0) for stiffness in (0.5, 2.0)]
+    for stress, noted in ((rubber, False), (composites[0], True), (composites[1], True)):
         curve = read_curve(write(tmp_path / "a.csv", "strain,stress_MPa\n" + rows(strain, stress)))
         np.testing.assert_allclose(curve.strain, strain, atol=1e-12)
         assert any("--mode compression" in note for note in curve.notes) is noted

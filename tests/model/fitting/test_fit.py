@@ -13,11 +13,12 @@ from spavision.model.fitting.fit import FitSettings, fit_all, fit_law
 from spavision.model.fitting.fit_data import stack, stretch_reach
 from spavision.model.fitting.measured_curve import MeasuredCurve
 from spavision.model.materials.arruda_boyce import ArrudaBoyce
-from spavision.model.materials.curves import EQUIBIAXIAL, PLANAR, UNIAXIAL, nominal_stress
+from spavision.model.materials.curves import EQUIBIAXIAL, MODES, PLANAR, UNIAXIAL, nominal_stress
 from spavision.model.materials.gent import Gent
 from spavision.model.materials.mooney_rivlin import MooneyRivlin
 from spavision.model.materials.neo_hooke import NeoHooke
 from spavision.model.materials.ogden import Ogden
+from spavision.model.materials.stability import drucker_margin
 from spavision.model.materials.yeoh import Yeoh
 
 from .curves import synthetic, treloar
@@ -97,10 +98,13 @@ def test_treloar_is_fitted_at_least_as_well_as_published():
     assert fit.is_stable
 
 
-@pytest.mark.parametrize("allow_unstable", [False, True])
-def test_cold_start_finds_the_best_of_fifty(allow_unstable):
-    """Ogden with three terms on Treloar's data: 50 other starts find nothing better."""
-    data = stack(treloar(), [1.0] * 3)
+@pytest.mark.parametrize(("tests", "allow_unstable"), [(3, False), (1, True)])
+def test_cold_start_finds_the_best_of_fifty(tests, allow_unstable):
+    """Ogden with three terms on Treloar's data: 50 other starts find nothing better.
+
+    Tension alone with signs free has minima 4 % above the best, where the first starts end.
+    """
+    data = stack(treloar()[:tests], [1.0] * tests)
 
     def residual(starts, seed):
         family = find_family("ogden")
@@ -140,6 +144,16 @@ def test_bounds_keep_the_law_stable_and_can_be_lifted():
     assert free.goodness.r_squared > bound.goodness.r_squared
     assert any("unstable or locked within" in note for note in free.notes)
     assert any("held back" in note for note in bound.notes)
+
+
+@pytest.mark.parametrize("law", ["yeoh", "mooney3"])
+def test_a_bound_law_is_stable_between_the_stretches_at_which_it_is_bound(law):
+    """A composite's sharp knee bends these laws so much that a coarse check would miss an unstable band."""
+    stretch = np.linspace(1.0, 1.5, 101)
+    stress = 0.12 * (stretch - 1.0) + 8.0 * np.maximum(stretch - 1.39, 0.0)
+    fit = fit_law(law, [MeasuredCurve("composite", UNIAXIAL, stretch, stress)])
+    for mode, (low, high) in fit.reach.items():
+        assert drucker_margin(fit.law, np.geomspace(low, high, 2001), MODES[mode]).min() > 0.0
 
 
 def test_negative_moduli_are_found_when_allowed():
@@ -249,13 +263,14 @@ def test_biaxial_absurdity_of_uniaxial_fits_is_told():
 
 
 def test_bad_data_are_told():
-    curve = synthetic(NeoHooke(0.1), points=4)[0]
-    with pytest.raises(InputError, match="4 points are too few for 6 parameters"):
+    curve = synthetic(NeoHooke(0.1), points=6)[0]
+    with pytest.raises(InputError, match="6 points are too few for 6 parameters"):
         fit_law("ogden", [curve])
     with pytest.raises(InputError, match="does not vary"):
-        fit_law("neo-hooke", [replace(curve, stress_MPa=np.full(4, 0.1))])
-    with pytest.raises(InputError, match="--stress-unit"):
-        fit_law("neo-hooke", [replace(curve, stress_MPa=1e4 * curve.stress_MPa)])
+        fit_law("neo-hooke", [replace(curve, stress_MPa=np.full(6, 0.1))])
+    for factor in (1.1e3, 0.9e-2):
+        with pytest.raises(InputError, match="--stress-unit"):
+            fit_law("neo-hooke", [replace(curve, stress_MPa=factor * curve.stress_MPa)])
     confirmed = fit_law(
         "neo-hooke", [replace(curve, stress_MPa=1e4 * curve.stress_MPa)], FitSettings(any_modulus=True)
     )

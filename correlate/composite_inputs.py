@@ -41,9 +41,17 @@ def with_composite(
     if composite.law == "ogden":
         ogden = ogden_composite(curve, density_g_per_cm3=matrix.density_g_per_cm3)
         return replace(settings, composite=ogden.material), data_notes + ogden.notes
-    calibrated = calibrated_slack_fibre(
-        curve, matrix=matrix.law, crimp_ratio=crimp_ratio, paper=settings.paper
-    )
+    try:
+        calibrated = calibrated_slack_fibre(
+            curve, matrix=matrix.law, crimp_ratio=crimp_ratio, paper=settings.paper
+        )
+    except InputError as error:
+        if composite.law != "resolved":
+            raise
+        raise InputError(
+            f"--composite resolved: no slack fibre can be calibrated at this crimp ratio ({error}); choose "
+            "slack-fibre or ogden"
+        ) from error
     stiffness = calibrated.matrix_stiffness * settings.matrix_stiffness
     calibrated_settings = replace(settings, paper=calibrated.paper, matrix_stiffness=stiffness)
     return calibrated_settings, data_notes + calibrated.notes

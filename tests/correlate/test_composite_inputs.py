@@ -87,3 +87,12 @@ def test_a_curve_without_transition_is_refused(tmp_path):
     path.write_text("\n".join(["strain,nominal_stress_MPa", *rows]), encoding="utf-8")
     with pytest.raises(InputError, match="no transition"):
         inputs(curve=str(path))
+
+
+def test_paper_straight_within_the_primary_modulus_s_strain_is_told():
+    """At crimp ratio 0.1 the paper is straight before 8 %, so that the first 10 % hold no slack part."""
+    experiment = Experiment.model_validate(
+        {"actuator": {"crimp_ratio": 0.1}, "composite": {"law": "resolved"}}
+    )
+    with pytest.raises(InputError, match="choose slack-fibre or ogden"):
+        model_inputs(experiment)

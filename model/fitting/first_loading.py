@@ -17,6 +17,9 @@ REVERSAL = 0.01
 OFFSET = 0.002
 """Share of the range from which a stress at zero strain, or a strain at zero stress, is an offset."""
 
+_AT_REST = 1e-3
+"""Share of the range within which a strain counts as zero."""
+
 _LARGEST_OFFSET = 0.5
 """Strain at zero stress that is no slack of a specimen any more."""
 
@@ -155,7 +158,10 @@ def _first_large_move(values: FloatArray, threshold: float) -> float:
 
 
 def _crosses_rest(points: Points) -> bool:
-    return bool(np.any(points.stretch > 1.0) and np.any(points.stretch < 1.0))
+    """Whether the curve holds tension and compression, more than noise about rest."""
+    strain = points.stretch - 1.0
+    noise = _AT_REST * np.abs(strain).max()
+    return bool(strain.max() > noise and strain.min() < -noise)
 
 
 def _through_origin(points: Points, source: str) -> Points:
@@ -164,7 +170,7 @@ def _through_origin(points: Points, source: str) -> Points:
     reach, load = np.abs(strain).max(), np.abs(stress).max()
     if _crosses_rest(points) or load == 0.0:
         return points
-    if abs(strain[0]) <= 1e-3 * reach and abs(stress[0]) > OFFSET * load:
+    if abs(strain[0]) <= _AT_REST * reach and abs(stress[0]) > OFFSET * load:
         note = f"stress of {1e3 * stress[0]:.3g} kPa at zero strain: the curve is shifted by it"
         return Points(points.stretch, stress - stress[0], (*points.notes, note))
     if abs(stress[0]) <= 1e-6 * load and abs(strain[0]) > OFFSET * reach:

@@ -7,10 +7,10 @@ from typing import Any
 
 from spavision.errors import InputError
 from spavision.experiment import Experiment
+from spavision.samples import nearest_sample_set
 from spavision.workflow.measured_side import Source
 
 from .options import MODEL_OPTIONS, PHOTO_OPTIONS, experiment_file, experiment_for
-from spavision.samples import nearest_sample_set
 
 
 def choose_source(

@@ -107,9 +107,10 @@ def find_candidates(
     part = rgb[top:bottom, left:right]
     factor = min(1.0, SPOT_PITCH_PX / board.pitch_px)
     pitch = factor * board.pitch_px
-    small = (
-        part if factor == 1.0 else cv2.resize(part, None, fx=factor, fy=factor, interpolation=cv2.INTER_AREA)
-    )
+    small: RgbImage = part
+    if factor < 1.0:
+        shrunk = cv2.resize(part, None, fx=factor, fy=factor, interpolation=cv2.INTER_AREA)
+        small = np.asarray(shrunk, dtype=np.uint8)
     strength = blur(colour_strength(small, white_balance(rgb, board), colour), max(0.12 * low * pitch, 0.7))
     spots = _spots(small, strength, FAINTEST_SHARE * colour_chroma(colour), low * pitch, high * pitch)
     offset = np.array([left, top], dtype=float)

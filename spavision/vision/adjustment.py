@@ -132,29 +132,37 @@ def adjust(
     camera = priors.camera if start is None or fixed else start.camera
     poses = start.poses if start is not None else [first_pose(camera, view) for view in views]
     values = _values(camera, poses)
-    sigma = _sigma(_residuals(values, views, priors.camera))
-    damping, cost = 1e-7, _cost(values, views, priors, sigma)
-    normal = np.eye(len(values))
+    residuals = _residuals(values, views, priors.camera)
+    sigma = _sigma(residuals)
+    damping, cost = 1e-7, _cost(values, residuals, priors, sigma)
     for _ in range(MOST_STEPS):
-        normal, gradient = _normal_equations(values, views, priors, sigma)
+        normal, gradient = _normal_equations(values, views, residuals, priors, sigma)
         while damping < 1e10:
             step = _bounded(_solve(normal, gradient, damping, fixed=fixed))
             trial = values + step
-            trial_cost = _cost(trial, views, priors, sigma)
+            trial_residuals = _residuals(trial, views, priors.camera)
+            trial_cost = _cost(trial, trial_residuals, priors, sigma)
             if trial_cost <= cost:
                 break
             damping *= 8.0
         else:
             break
         gained, values, damping = cost - trial_cost, trial, max(damping / 8.0, 1e-12)
-        new_sigma = _sigma(_residuals(values, views, priors.camera))
+        residuals = trial_residuals
+        new_sigma = _sigma(residuals)
         settled = gained < least_gain and abs(new_sigma / sigma - 1.0) < 0.01
         sigma = new_sigma
-        cost = _cost(values, views, priors, sigma)
+        cost = _cost(values, residuals, priors, sigma)
         if settled:
             break
-    normal, _ = _normal_equations(values, views, priors, sigma)
-    return _result(values, views, priors, sigma, normal, fixed=fixed)
+    normal, _ = _normal_equations(values, views, residuals, priors, sigma)
+    return Adjustment(
+        camera=priors.camera if fixed else _camera(values, priors.camera),
+        poses=tuple(_view_pose(values, number) for number in range(len(views))),
+        residuals_px=tuple(residuals),
+        sigma_px=sigma,
+        covariance=_covariance(normal, fixed=fixed),
+    )
 
 
 def distance_gradient(pose: Pose) -> FloatArray:
@@ -239,10 +247,10 @@ def _distance_misfit(values: FloatArray, priors: Priors) -> float:
     return (_view_pose(values, 0).distance_mm - priors.distance_mm) / priors.sigma_distance_mm
 
 
-def _cost(values: FloatArray, views: list[View], priors: Priors, sigma: float) -> float:
+def _cost(values: FloatArray, residuals: list[FloatArray], priors: Priors, sigma: float) -> float:
     reach = 3.0 * sigma
     cost = 0.0
-    for residual in _residuals(values, views, priors.camera):
+    for residual in residuals:
         if not np.isfinite(residual).all():
             return np.inf
         cost += (reach / sigma) ** 2 * float(np.log1p((residual**2).sum(axis=1) / reach**2).sum())
@@ -254,15 +262,13 @@ def _cost(values: FloatArray, views: list[View], priors: Priors, sigma: float) -
 
 
 def _normal_equations(
-    values: FloatArray, views: list[View], priors: Priors, sigma: float
+    values: FloatArray, views: list[View], residuals: list[FloatArray], priors: Priors, sigma: float
 ) -> tuple[FloatArray, FloatArray]:
     camera = _camera(values, priors.camera)
     normal = np.zeros((len(values), len(values)))
     gradient = np.zeros(len(values))
-    for number, view in enumerate(views):
-        pose = _view_pose(values, number)
-        jacobian = _jacobian(camera, pose, view.points_mm)
-        residual = view.pixels - project(camera, pose, view.points_mm)
+    for number, (view, residual) in enumerate(zip(views, residuals, strict=True)):
+        jacobian = _jacobian(camera, _view_pose(values, number), view.points_mm)
         weight = np.repeat(_weights(residual, sigma), 2) / sigma**2
         first = N_INTRINSIC + 6 * number
         place = np.r_[0:N_INTRINSIC, first : first + 6]
@@ -316,19 +322,12 @@ def _bounded(step: FloatArray) -> FloatArray:
     return step * min(1.0, np.log(2.0) / max(float(np.abs(logarithms).max()), 1e-12))
 
 
-def _result(
-    values: FloatArray, views: list[View], priors: Priors, sigma: float, normal: FloatArray, *, fixed: bool
-) -> Adjustment:
+def _covariance(normal: FloatArray, *, fixed: bool) -> FloatArray:
+    """Invert the normal equations, scaled by their diagonal; zero for parameters kept ``fixed``."""
     covariance = np.zeros_like(normal)
     free = slice(N_INTRINSIC, None) if fixed else slice(0, None)
     scale = 1.0 / np.sqrt(np.diag(normal)[free])
     covariance[free, free] = np.linalg.pinv(
         normal[free, free] * np.outer(scale, scale), hermitian=True
     ) * np.outer(scale, scale)
-    return Adjustment(
-        camera=priors.camera if fixed else _camera(values, priors.camera),
-        poses=tuple(_view_pose(values, number) for number in range(len(views))),
-        residuals_px=tuple(_residuals(values, views, priors.camera)),
-        sigma_px=sigma,
-        covariance=covariance,
-    )
+    return covariance

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from spavision.model.figures import STRETCH_COLOURS, draw_from_rest, stretch_range
+from spavision.model.figures import STRETCH_COLOURS, draw_from_rest
 from spavision.model.simulation import Simulation
 from spavision.tip_path import TipPath
 
@@ -90,7 +91,7 @@ def photo_figure(photo_rgb: NDArray[np.uint8], window: Window, *, title: str) ->
     return figure
 
 
-def model_figure(simulation: Simulation, row: int, window: Window) -> Figure:
+def model_figure(simulation: Simulation, row: int, window: Window, norm: Normalize) -> Figure:
     """Draw the deformed model at one of its pressures in the window.
 
     Parameters
@@ -99,14 +100,16 @@ def model_figure(simulation: Simulation, row: int, window: Window) -> Figure:
     row : int
         Which of the asked pressures; it must have been reached.
     window : Window
+    norm : Normalize
+        Colours of the largest principal stretch, the same for all pressures.
     """
     figure, axes = _framed(window, "")
-    draw_from_rest(axes, simulation, row, mirrored=window.mirrored)
+    draw_from_rest(axes, simulation, row, norm, mirrored=window.mirrored)
     axes.set_title(f"model, {simulation.tip_path.pressure_kPa[row]:g} kPa", fontsize="small")
     axes.set_aspect("auto")
     place = (0.25, BAR_INCHES[0] / HEIGHT_INCHES, 0.6, BAR_INCHES[1] / HEIGHT_INCHES)
     bar = figure.add_axes(place, label="largest principal stretch")
-    colours = ScalarMappable(stretch_range(simulation), STRETCH_COLOURS)
+    colours = ScalarMappable(norm, STRETCH_COLOURS)
     figure.colorbar(colours, cax=bar, orientation="horizontal")
     bar.set_xlabel("largest principal stretch", fontsize="small")
     bar.tick_params(labelsize="small")

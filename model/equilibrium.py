@@ -18,7 +18,8 @@ from .constitutive import (
     per_element,
 )
 from .element_geometry import ElementGeometry, element_geometry
-from .element_kernels import element_forces, element_tangents
+from .element_integrals import force_integrals, volumetric_energy
+from .element_kernels import element_tangents
 from .elements import FloatArray, IntArray, reference_element
 from .hex_mesh import BoolArray, HexMesh
 from .materials.solid import SolidMaterial
@@ -112,7 +113,7 @@ class Equilibrium:
         if not kinematics.is_admissible:
             return None
         response = evaluate_materials(self.groups, kinematics, tension=state.tension)
-        forces, dilatation, operator = self._integrate(kinematics, response.stress)
+        forces, dilatation, operator = force_integrals(self.geometry, kinematics, response.stress)
         projected = self.bulk_modulus_MPa[:, None] * dilatation
         external = load.gravity * self._weight + load.gas_pressure_MPa * self.unit_pressure_forces(state)
         condensed = self._scatter(forces + np.einsum("em,emia->eia", projected, operator)) - external
@@ -242,36 +243,12 @@ class Equilibrium:
     def strain_energy(self, state: State) -> float:
         """Return the energy stored in the solid, in N mm."""
         kinematics = deform(state.displacement, self.mesh.elements, self.geometry)
-        excess = np.einsum(
-            "eq,eqm->em", self.geometry.volumes * (kinematics.J - 1.0), self.geometry.pressure_modes
-        )
-        volumetric = 0.5 * float(self.bulk_modulus_MPa @ (excess**2).sum(axis=1))
+        volumetric = volumetric_energy(self.geometry, kinematics.J, self.bulk_modulus_MPa)
         return isochoric_energy(self.groups, kinematics, self.geometry.volumes) + volumetric
 
     def gravity_work(self, state: State) -> float:
         """Return the work of the full weight over the state's displacement, in N mm."""
         return float(np.sum(self._weight * state.displacement))
-
-    def _integrate(
-        self, kinematics: Deformation, stress: FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        n_elements, n_nodes = self.mesh.elements.shape
-        n_modes = self.geometry.pressure_modes.shape[2]
-        forces = np.empty((n_elements, 3, n_nodes))
-        dilatation = np.empty((n_elements, n_modes))
-        operator = np.empty((n_elements, n_modes, 3, n_nodes))
-        element_forces(
-            self.geometry.gradients,
-            self.geometry.volumes,
-            self.geometry.pressure_modes,
-            kinematics.F,
-            kinematics.J,
-            stress,
-            forces,
-            dilatation,
-            operator,
-        )
-        return forces, dilatation, operator
 
     def _scatter(self, element_forces: FloatArray) -> FloatArray:
         return _sum_to_nodes(self.mesh.elements, element_forces, len(self.mesh.nodes_mm))

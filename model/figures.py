@@ -80,18 +80,19 @@ def deformed_shapes(simulation: Simulation, *, panels: int = 6) -> Figure:
     return figure
 
 
-def deformed_state(simulation: Simulation, row: int) -> Figure:
-    """Draw the deformed side face at one pressure, in the frame and colours that all pressures share.
+def deformed_state(simulation: Simulation, row: int, norm: Normalize) -> Figure:
+    """Draw the deformed side face at one pressure, in the frame that all pressures share.
 
     Parameters
     ----------
     simulation : Simulation
     row : int
         Which of the asked pressures; it must have been reached.
+    norm : Normalize
+        Colours, from `stretch_range`.
     """
     reached = np.flatnonzero(simulation.tip_path.has_reading)
     elements, faces = _side_faces(simulation)
-    norm = stretch_range(simulation)
     x_range, y_range = _frame(simulation, reached)
     figure = Figure(figsize=(5.0, 5.0), layout="constrained")
     axis = figure.add_subplot()
@@ -103,7 +104,9 @@ def deformed_state(simulation: Simulation, row: int) -> Figure:
     return figure
 
 
-def draw_from_rest(axis: Axes, simulation: Simulation, row: int, *, mirrored: bool = False) -> None:
+def draw_from_rest(
+    axis: Axes, simulation: Simulation, row: int, norm: Normalize, *, mirrored: bool = False
+) -> None:
     """Draw the deformed side face into axes whose origin is the tracked point at the lowest pressure.
 
     Parameters
@@ -113,13 +116,15 @@ def draw_from_rest(axis: Axes, simulation: Simulation, row: int, *, mirrored: bo
     simulation : Simulation
     row : int
         Which of the asked pressures; it must have been reached.
+    norm : Normalize
+        Colours, from `stretch_range`.
     mirrored : bool
         Whether the first bend goes to the left.
     """
     elements, faces = _side_faces(simulation)
     stretch = element_fields(simulation, row).largest_stretch[elements]
     axes_of_photo = _Axes(simulation.marker_at_rest_mm[:2], np.array([-1.0 if mirrored else 1.0, 1.0]))
-    _draw_side(axis, simulation, row, faces, stretch, stretch_range(simulation), axes_of_photo)
+    _draw_side(axis, simulation, row, faces, stretch, norm, axes_of_photo)
 
 
 def stretch_range(simulation: Simulation) -> Normalize:

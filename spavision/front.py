@@ -38,7 +38,35 @@ DEFAULT_PRESSURES_kPa = tuple(range(0, 70, 5))
 
 
 @dataclass(frozen=True)
-class Tracked:
+class _PathResult:
+    """A tip path with its table, and its folder as the command of the same kind writes it."""
+
+    tip_path: TipPath
+    experiment: Experiment
+    scratch: ResultsFolder = field(repr=False)
+
+    def table(self) -> pd.DataFrame:
+        """Return the tip path, one row a photograph or pressure, as in the command's CSV file."""
+        return self.tip_path.table()
+
+    def save(self, folder: str | Path, *, force: bool = False) -> Path:
+        """Write everything that the command of the same kind writes; return the folder.
+
+        Raises
+        ------
+        InputError
+            If the folder holds files already and ``force`` is off, or cannot be written to.
+        """
+        results = _begun(folder, self.scratch, force=force)
+        self._write(results)
+        return results.path
+
+    def _write(self, results: ResultsFolder) -> None:
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Tracked(_PathResult):
     """What `track` measured.
 
     Parameters
@@ -53,14 +81,7 @@ class Tracked:
         What was read on the way, for the record.
     """
 
-    tip_path: TipPath
     measurement: Measurement
-    experiment: Experiment
-    scratch: ResultsFolder = field(repr=False)
-
-    def table(self) -> pd.DataFrame:
-        """Return the tip path, one row a photograph, as in ``track.csv``."""
-        return self.tip_path.table()
 
     def plot(self) -> Figure:
         """Draw the tip path in the x-y plane."""
@@ -68,21 +89,12 @@ class Tracked:
 
         return single_path_figure(self.tip_path, label="measured")
 
-    def save(self, folder: str | Path, *, force: bool = False) -> Path:
-        """Write everything that ``spavision track`` writes; return the folder.
-
-        Raises
-        ------
-        InputError
-            If the folder holds files already and ``force`` is off, or cannot be written to.
-        """
-        results = _begun(folder, self.scratch, force=force)
+    def _write(self, results: ResultsFolder) -> None:
         save_measurement(results, self.measurement, self.experiment)
-        return results.path
 
 
 @dataclass(frozen=True)
-class Simulated:
+class Simulated(_PathResult):
     """What `simulate` computed.
 
     Parameters
@@ -97,14 +109,7 @@ class Simulated:
         What was read on the way, for the record.
     """
 
-    tip_path: TipPath
     simulation: Simulation
-    experiment: Experiment
-    scratch: ResultsFolder = field(repr=False)
-
-    def table(self) -> pd.DataFrame:
-        """Return the tip path, one row a pressure, as in ``simulation.csv``."""
-        return self.tip_path.table()
 
     def plot(self) -> Figure:
         """Draw the deformed shapes at several pressures."""
@@ -112,17 +117,8 @@ class Simulated:
 
         return deformed_shapes(self.simulation)
 
-    def save(self, folder: str | Path, *, force: bool = False) -> Path:
-        """Write everything that ``spavision simulate`` writes; return the folder.
-
-        Raises
-        ------
-        InputError
-            If the folder holds files already and ``force`` is off, or cannot be written to.
-        """
-        results = _begun(folder, self.scratch, force=force)
+    def _write(self, results: ResultsFolder) -> None:
         save_simulation(results, self.simulation, self.experiment)
-        return results.path
 
 
 @dataclass(frozen=True)
@@ -196,7 +192,7 @@ def track(
     home = place.parent if place.is_file() else place
     found = _experiment(experiment, home, sections, results)
     measurement = measure(place, found, results=results, quiet=not progress)
-    return Tracked(measurement.track.tip_path, measurement, found, results)
+    return Tracked(measurement.track.tip_path, found, results, measurement)
 
 
 def simulate(
@@ -223,7 +219,7 @@ def simulate(
     results = _scratch()
     found = _experiment(experiment, None, sections, results)
     simulation = run_model(found, np.asarray(pressures_kPa, dtype=float), quiet=not progress)
-    return Simulated(simulation.tip_path, simulation, found, results)
+    return Simulated(simulation.tip_path, found, results, simulation)
 
 
 def compare(

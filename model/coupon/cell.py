@@ -7,8 +7,15 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.sparse import csr_array
 
-from spavision.model.constitutive import Deformation, MaterialGroup, deform, evaluate_materials
-from spavision.model.element_kernels import BLOCKS, element_forces, element_tangents
+from spavision.model.constitutive import (
+    Deformation,
+    MaterialGroup,
+    deform,
+    evaluate_materials,
+    isochoric_energy,
+)
+from spavision.model.element_integrals import force_integrals, volumetric_energy
+from spavision.model.element_kernels import BLOCKS, element_tangents
 from spavision.model.elements import FloatArray, IntArray
 from spavision.model.materials.solid import SolidMaterial
 
@@ -130,7 +137,7 @@ class Cell:
         if not kinematics.is_admissible:
             return None
         response = evaluate_materials(self._groups, kinematics)
-        forces, dilatation, operator = self._integrate(kinematics, response.stress)
+        forces, dilatation, operator = force_integrals(self._tables, kinematics, response.stress)
         pressure = self._bulk_MPa[:, None] * dilatation
         beam = self.beam.respond(displacement[self.mesh.paper_nodes, :2], rotation, displacement[-1, _THIRD])
         condensed, mixed = (
@@ -176,12 +183,8 @@ class Cell:
         solid = displacement.copy()
         solid[:-1, _THIRD] = 0.0
         kinematics = deform(solid, self.mesh.elements, self._tables)
-        log_stretch = kinematics.log_stretch.reshape(-1, 3)
-        isochoric = log_stretch - log_stretch.mean(axis=1, keepdims=True)
-        density = self._groups[0].material.law.energy(isochoric)
-        volumes = self._tables.volumes
-        excess = np.einsum("eq,eqm->em", volumes * (kinematics.J - 1.0), self._tables.pressure_modes)
-        matrix = float(density @ volumes.ravel()) + 0.5 * float(self._bulk_MPa @ (excess**2).sum(axis=1))
+        matrix = isochoric_energy(self._groups, kinematics, self._tables.volumes)
+        matrix += volumetric_energy(self._tables, kinematics.J, self._bulk_MPa)
         return matrix + self.beam.energy(
             displacement[self.mesh.paper_nodes, :2], rotation, float(displacement[-1, _THIRD])
         )
@@ -193,26 +196,6 @@ class Cell:
         """
         padded = np.append(state.unknowns, 0.0)
         return padded[self._solid], padded[self._turn]
-
-    def _integrate(
-        self, kinematics: Deformation, stress: FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        n_elements = len(self.mesh.elements)
-        forces = np.empty((n_elements, 3, 10))
-        dilatation = np.empty((n_elements, 3))
-        operator = np.empty((n_elements, 3, 3, 10))
-        element_forces(
-            self._tables.gradients,
-            self._tables.volumes,
-            self._tables.pressure_modes,
-            kinematics.F,
-            kinematics.J,
-            stress,
-            forces,
-            dilatation,
-            operator,
-        )
-        return forces, dilatation, operator
 
     def _sum(self, solid_forces: FloatArray, beam_forces: FloatArray) -> FloatArray:
         places = np.concatenate([self._solid_places.ravel(), self._beam_places.ravel()])

@@ -60,11 +60,12 @@ def model_pictures(simulation: Simulation, window: Window) -> dict[float, Pictur
     """Draw the deformed actuator at each pressure reached."""
     from spavision.correlate.frames import model_figure
     from spavision.correlate.report import Picture
+    from spavision.model.figures import stretch_range
 
-    path = simulation.tip_path
+    path, norm = simulation.tip_path, stretch_range(simulation)
     return {
         float(path.pressure_kPa[row]): Picture(
-            figure_bytes(model_figure(simulation, int(row), window), "png", dpi=PAGE_DPI),
+            figure_bytes(model_figure(simulation, int(row), window, norm), "png", dpi=PAGE_DPI),
             "image/png",
             f"The model at {path.pressure_kPa[row]:g} kPa, to the same scale",
         )

@@ -89,6 +89,17 @@ class PhotosSection(Section):
         return self
 
 
+class GaugeSection(Section):
+    """How the pressure in the actuator follows from the one that was read."""
+
+    pressure_scale: float = Field(
+        1.0, ge=0.2, le=5, allow_inf_nan=False, description="true over read pressure, by calibration"
+    )
+    pressure_offset_kPa: float = Field(
+        0.0, ge=-50, le=50, allow_inf_nan=False, description="true pressure less that, at readings above 0, kPa"
+    )
+
+
 class ActuatorSection(Section):
     """The actuator: defaults are the article's, or assumed where it is silent."""
 
@@ -208,6 +219,7 @@ class Experiment(Section):
     camera: CameraSection = CameraSection()
     marker: MarkerSection = MarkerSection()
     photos: PhotosSection = PhotosSection()
+    gauge: GaugeSection = GaugeSection()
     actuator: ActuatorSection = ActuatorSection()
     composite: CompositeSection = CompositeSection()
     model: ModelSection = ModelSection()

@@ -6,6 +6,7 @@ import time
 
 import numpy as np
 
+from spavision.correlate.gauge import true_pressure_kPa
 from spavision.correlate.model_inputs import model_inputs
 from spavision.errors import InputError
 from spavision.model.reduced.one_thread import one_thread
@@ -36,15 +37,23 @@ def evaluate(case: Case) -> CaseResult:
     except Exception as error:
         return failed(case, f"internal error: {type(error).__name__}: {error}")
     reached = path.has_reading
-    reasons = [reason for reason in path.reason if reason]
     status = "ok" if reached.all() else "stopped" if np.count_nonzero(reached) > 1 else "failed"
     return CaseResult(
         status=status,
-        reason=reasons[-1] if reasons else "",
+        reason=_reason(case, path, status),
         ux_mm=tuple(path.ux_mm.tolist()),
         uy_mm=tuple(path.uy_mm.tolist()),
         seconds=time.process_time() - start,
     )
+
+
+def _reason(case: Case, path: TipPath, status: str) -> str:
+    """Say why the ramp stopped; where it did not, what its first remark is and from where on."""
+    remarks = [(p, reason) for p, reason in zip(case.pressures_kPa, path.reason, strict=False) if reason]
+    if not remarks:
+        return ""
+    pressure, first = remarks[0]
+    return f"from {pressure:g} kPa on {first}" if status == "ok" else remarks[-1][1]
 
 
 def _tip_path(case: Case) -> TipPath:
@@ -53,7 +62,7 @@ def _tip_path(case: Case) -> TipPath:
     found = run(
         inputs.geometry,
         crimp_ratio=inputs.crimp_ratio,
-        pressures_kPa=np.array(case.pressures_kPa),
+        pressures_kPa=true_pressure_kPa(np.array(case.pressures_kPa), case.experiment.gauge),
         settings=inputs.settings,
     )
     return found.tip_path

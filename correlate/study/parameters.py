@@ -13,11 +13,14 @@ from spavision.experiment import Experiment
 
 Value = float | int | str
 
-MODEL_SECTIONS = ("actuator", "composite", "model")
+MODEL_SECTIONS = ("actuator", "composite", "model", "gauge")
 """Sections of the experiment file that the model depends on."""
 
 MEASUREMENT_KEYS = {"standoff_mm": "camera", "distance_mm": "camera", "scale": "board"}
 """Keys that move the measured path instead of the modelled one, with their sections."""
+
+FORM_KEYS = ("law",)
+"""Keys that choose the form of the model, which a discrepancy may accuse but which has no scatter."""
 
 _OF_THE_PHOTOS = ("first_bend",)
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+from spavision.correlate.gauge import read_pressure_kPa, true_pressure_kPa
 from spavision.errors import InputError
+from spavision.experiment import GaugeSection
 from spavision.results import ResultsFolder
 from spavision.table_text import csv_text
 
@@ -44,12 +46,16 @@ class Comparison:
     @property
     def notes(self) -> tuple[str, ...]:
         """What the reader must know about either side."""
-        stopped = self.simulation.stopped_at_kPa
-        studied = self.study.notes if self.study is not None else ()
-        if stopped is None:
-            return (*self.side.notes, *studied)
-        stop = f"The model stopped at {stopped:g} kPa: {self.simulation.stop_reason}"
-        return (*self.side.notes, *studied, stop)
+        notes = [*self.side.notes, *(self.study.notes if self.study is not None else ())]
+        gauge, stopped = self.side.source.experiment.gauge, self.simulation.stopped_at_kPa
+        if gauge != GaugeSection():
+            notes.append(
+                f"Pressures are the gauge's readings; the model ran at {gauge.pressure_scale:g} times these "
+                f"{gauge.pressure_offset_kPa:+g} kPa, and its steps are listed at true pressures."
+            )
+        if stopped is not None:
+            notes.append(f"The model stopped at {stopped:g} kPa: {self.simulation.stop_reason}")
+        return tuple(notes)
 
     def record(self) -> dict[str, Any]:
         """Return the settings and outcomes that ``run.json`` keeps."""
@@ -98,7 +104,9 @@ def compare_with_model(side: MeasuredSide, *, quiet: bool, study: StudyResults |
             f"{side.source.place}: the pressure {highest:g} kPa lies outside the model's range of 0 to "
             f"{LARGEST_PRESSURE_KPA:g} kPa; correct it, or name its unit with --pressure-unit"
         )
-    simulation = run_model(side.source.experiment, side.model_pressure_kPa, quiet=quiet)
+    experiment = side.source.experiment
+    pressure_kPa = true_pressure_kPa(side.model_pressure_kPa, experiment.gauge)
+    simulation = run_model(experiment, pressure_kPa, quiet=quiet)
     return compare_sides(side, simulation, study=study)
 
 
@@ -106,6 +114,8 @@ def compare_sides(
     side: MeasuredSide, simulation: Simulation, *, study: StudyResults | None = None
 ) -> Comparison:
     """Compare a measured path with a simulation at the pressures that both have.
+
+    Where the experiment knows its gauge, the simulation ran at true pressures and is set beside the readings.
 
     Raises
     ------
@@ -118,6 +128,7 @@ def compare_sides(
     from spavision.model.mesh_error import numerical_uncertainty_mm
 
     first_bend = side.source.experiment.actuator.first_bend
+    simulation = _at_readings(simulation, side.source.experiment.gauge)
     discrepancy = compare(in_bending_axes(side.path, first_bend=first_bend), simulation.tip_path)
     modelled = discrepancy.modelled
     mesh_mm = numerical_uncertainty_mm(simulation.settings.mesh_level, modelled.ux_mm, modelled.uy_mm)
@@ -131,6 +142,16 @@ def compare_sides(
         summarise(discrepancy, known),
         compare_shapes(side.measurement, simulation, first_bend=first_bend),
         study,
+    )
+
+
+def _at_readings(simulation: Simulation, gauge: GaugeSection) -> Simulation:
+    """Name the simulation's states by what the gauge shows at their pressures."""
+    if gauge == GaugeSection():
+        return simulation
+    path = simulation.tip_path
+    return replace(
+        simulation, tip_path=replace(path, pressure_kPa=read_pressure_kPa(path.pressure_kPa, gauge))
     )
 
 

@@ -7,6 +7,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from spavision import simulate
+
 GOOD = "pressure_kPa,ux_mm,uy_mm\n0,0,0\n5,1.5,0.2\n10,3.6,-0.1\n"
 
 
@@ -147,3 +149,17 @@ def test_sample_sets_pass_through_the_published_values():
     assert low[:, 0].max() == pytest.approx(17.5)
     assert low[-1, 0] == pytest.approx(-65)
     assert low[:, 0].max() < between[:, 0].max() < high[:, 0].max()
+
+
+def test_correlate_sets_the_model_at_true_pressures_beside_the_readings(spavision, tmp_path):
+    (tmp_path / "measured.csv").write_text("pressure_kPa,ux_mm,uy_mm\n0,0,0\n2.5,2.0,0.5\n")
+    (tmp_path / "gauge.toml").write_text("[actuator]\ncrimp_ratio = 0.3\n[gauge]\npressure_scale = 2\n")
+    done = spavision(
+        "correlate", "--measured", "measured.csv", "--experiment", "gauge.toml", "--mesh", "draft", "--json",
+        "-o", "out",
+    )  # fmt: skip
+    row = json.loads(done.out)["discrepancy"][1]
+    expected = simulate(pressures_kPa=[0, 5], actuator={"crimp_ratio": 0.3}, model={"mesh": "draft"})
+    assert row["pressure_kPa"] == 2.5
+    assert row["modelled_ux_mm"] == pytest.approx(expected.tip_path.ux_mm[1], abs=1e-9)
+    assert "the model ran at 2 times these" in (tmp_path / "out/report.html").read_text(encoding="utf-8")

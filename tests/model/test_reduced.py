@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -84,3 +86,24 @@ def test_leaning_row_is_bent_by_its_weight() -> None:
     row = hang(stiff_cell(0.0), n_cells=2, mass_tonne=mass, start=None, tilt=np.pi / 6.0)
     assert row.moments_Nmm == pytest.approx([0.5 * 0.2 * 10.0, 0.0])
     assert row.tensions_N == pytest.approx(np.cos(np.pi / 6.0) * 0.2 * np.array([1.5, 0.5]))
+
+
+def test_weightless_actuator_of_twice_the_stiffness_needs_twice_the_pressure() -> None:
+    """Dimensional analysis: nothing else has the unit of a pressure, so a tip path tells only the ratio."""
+    soft = SimulationSettings(mesh_level="draft", gravity=False)
+    paper = replace(
+        soft.paper,
+        length_modulus_MPa=2.0 * soft.paper.length_modulus_MPa,
+        width_modulus_MPa=2.0 * soft.paper.width_modulus_MPa,
+    )
+    stiff = replace(soft, body_stiffness=2.0, strip_b_stiffness=2.0, matrix_stiffness=2.0, paper=paper)
+    pressures = np.array([0.0, 10.0, 20.0])
+    paths = [
+        simulate_reduced(
+            ActuatorGeometry(), crimp_ratio=0.2, pressures_kPa=factor * pressures, settings=settings
+        ).tip_path
+        for factor, settings in ((1.0, soft), (2.0, stiff))
+    ]
+    np.testing.assert_allclose(paths[1].ux_mm, paths[0].ux_mm, atol=1e-4)
+    np.testing.assert_allclose(paths[1].uy_mm, paths[0].uy_mm, atol=1e-4)
+    assert paths[0].ux_mm[-1] > 5.0

@@ -14,11 +14,13 @@ from .emulator import EmulatorCheck, check_emulator, fit_emulator
 from .explanation import Explanation, explain_alone, explain_together, measured_target
 from .plan import Plan, RunCases, full_model_error, full_runs, n_fitted, refuse_failed
 from .sampling import draw_shares, one_at_a_time, values_at
-from .sensitivity import LocalSensitivity, SobolIndices, local_sensitivities, sobol_indices
+from .sensitivity import LocalSensitivity, SobolIndices, likenesses, local_sensitivities, sobol_indices
 from .suspects import nominal_point
 
 if TYPE_CHECKING:
     import pandas as pd
+
+_LIKENESSES_SAID = 4
 
 
 @dataclass(frozen=True)
@@ -102,6 +104,7 @@ class Attribution:
                 f"Against {len(self.full_check_mm)} runs of the full model the predicted change of the path "
                 f"is off by {error:.1f} mm (root mean square over all pressures)."
             )
+        found += [one.sentence() for one in likenesses(self.local)[:_LIKENESSES_SAID]]
         if self.n_not_whole:
             found.append(
                 f"{self.n_not_whole} of {self.plan.n_cases} random cases failed or stopped early; the "

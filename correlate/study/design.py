@@ -195,7 +195,7 @@ def _interpolated_best(
 
 def _scatter(plan: Plan, best: Candidate, run: RunCases) -> list[CaseResult]:
     """Run the best candidate with the suspects drawn at random, strip and crimp ratio about its own."""
-    suspects = plan.of_the_model
+    suspects = tuple(one for one in plan.suspects if one.is_input)
     if not suspects:
         return []
     points = draw_shares(len(suspects), plan.n_cases, sampling=plan.sampling, seed=plan.seed)

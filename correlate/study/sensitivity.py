@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -14,6 +15,7 @@ from spavision.tip_path import FloatArray
 
 from .case import CaseResult, displacements
 from .emulator import Emulator
+from .parameters import Value
 from .sampling import one_at_a_time
 from .suspects import Suspect
 
@@ -23,6 +25,12 @@ if TYPE_CHECKING:
 _BASE_POINTS = 1024
 _STILL_MM = 1e-6
 _INSIDE = 1e-6
+
+_SMALL_CHANGE = 0.1
+"""Share of the largest change below which a suspect moves the tip by too little to speak of."""
+
+_ALIKE = 0.97
+"""Cosine beyond which 6 % or less of a change's square is not proportional to the other's."""
 
 
 @dataclass(frozen=True)
@@ -97,25 +105,70 @@ class LocalSensitivity:
     Parameters
     ----------
     suspect : Suspect
+    ends : tuple of float or str
+        From which value to which; of a choice, the two options that are furthest apart.
     change_mm : array, shape (2, n_pressures)
-        Of x and y, from the lower to the upper end; for a choice, from the first to the last option.
+        Of x and y.
     """
 
     suspect: Suspect
+    ends: tuple[Value, Value]
     change_mm: FloatArray
+
+
+@dataclass(frozen=True)
+class Likeness:
+    """Two suspects that move the tip alike, so that a tip path hardly tells one from the other.
+
+    Parameters
+    ----------
+    names : tuple of str
+    cosine : float
+        Of the angle between their changes over all pressures: 1 or −1 where they are proportional.
+    """
+
+    names: tuple[str, str]
+    cosine: float
+
+    def sentence(self) -> str:
+        """Say it."""
+        return (
+            f"{self.names[0]} and {self.names[1]} move the tip alike (cosine {self.cosine:+.3f}): the path "
+            "hardly tells one from the other."
+        )
 
 
 def local_sensitivities(
     suspects: tuple[Suspect, ...], results: Sequence[CaseResult]
 ) -> tuple[LocalSensitivity, ...]:
-    """Take the slopes from the results of `one_at_a_time`, in its order."""
+    """Take the changes from the results of `one_at_a_time`, in its order."""
     values = displacements(results)
-    names = [next(iter(case)) for case in one_at_a_time(suspects)]
+    cases = [next(iter(case.items())) for case in one_at_a_time(suspects)]
     found = []
     for one in suspects:
-        rows = [row for row, name in enumerate(names) if name == one.name]
-        found.append(LocalSensitivity(one, values[rows[-1]] - values[rows[0]]))
+        rows = [row for row, (name, _) in enumerate(cases) if name == one.name]
+        first, last = max(
+            itertools.combinations(rows, 2),
+            key=lambda pair: np.nansum((values[pair[1]] - values[pair[0]]) ** 2),
+        )
+        ends = cases[first][1], cases[last][1]
+        found.append(LocalSensitivity(one, ends, values[last] - values[first]))
     return tuple(found)
+
+
+def likenesses(found: Sequence[LocalSensitivity]) -> list[Likeness]:
+    """Return the pairs of suspects that move the tip alike and by much, the most alike first."""
+    changes = [np.nan_to_num(one.change_mm).ravel() for one in found]
+    sizes = [float(np.linalg.norm(change)) for change in changes]
+    moving = [index for index, size in enumerate(sizes) if size > _SMALL_CHANGE * max(sizes)]
+    pairs = [
+        Likeness(
+            (found[i].suspect.name, found[k].suspect.name),
+            float(changes[i] @ changes[k]) / (sizes[i] * sizes[k]),
+        )
+        for i, k in itertools.combinations(moving, 2)
+    ]
+    return sorted((one for one in pairs if abs(one.cosine) > _ALIKE), key=lambda one: -abs(one.cosine))
 
 
 def local_table(found: Sequence[LocalSensitivity], pressure_kPa: FloatArray) -> pd.DataFrame:
@@ -125,8 +178,8 @@ def local_table(found: Sequence[LocalSensitivity], pressure_kPa: FloatArray) -> 
     rows = [
         {
             "suspect": one.suspect.name,
-            "low": one.suspect.interval[0],
-            "high": one.suspect.interval[1],
+            "low": one.ends[0],
+            "high": one.ends[1],
             "pressure_kPa": pressure,
             "change_ux_mm": one.change_mm[0, k],
             "change_uy_mm": one.change_mm[1, k],

@@ -13,7 +13,7 @@ from spavision.experiment import Experiment
 from spavision.model.materials.library import alternatives, find_material
 from spavision.tip_path import FloatArray
 
-from .parameters import MEASUREMENT_KEYS, Value, bounds, is_whole_number, nominal_value
+from .parameters import FORM_KEYS, MEASUREMENT_KEYS, Value, bounds, is_whole_number, nominal_value
 from .study_file import StudyFile, SuspectSection
 
 _INTERVAL = (0.025, 0.975)
@@ -48,6 +48,20 @@ class Suspect:
     def moves_the_measurement(self) -> bool:
         """Whether it acts on the measured path, not on the model."""
         return self.name in MEASUREMENT_KEYS
+
+    @property
+    def is_form(self) -> bool:
+        """Whether it chooses the form of the model, not one of its inputs.
+
+        The validation uncertainty of V&V 20 takes in the scatter of inputs; whether the form of the model is
+        right is what the comparison error then says.
+        """
+        return self.name in FORM_KEYS
+
+    @property
+    def is_input(self) -> bool:
+        """Whether its scatter makes the modelled path uncertain."""
+        return not self.moves_the_measurement and not self.is_form
 
     @property
     def is_choice(self) -> bool:

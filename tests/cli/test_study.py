@@ -51,7 +51,7 @@ def table(path):
 def test_starter_is_a_valid_study_file(spavision):
     content = tomllib.loads(spavision("study", "starter").out)
     assert content == tomllib.loads(STARTER)
-    assert len(StudyFile.model_validate(content).suspects) == 15
+    assert len(StudyFile.model_validate(content).suspects) == 18
 
 
 def test_study_alone_explains_itself(spavision):
@@ -110,7 +110,7 @@ def test_update_finds_the_softer_body_and_checks_elsewhere(spavision, study_file
     assert updated["actuator"]["body_stiffness"] == pytest.approx(float(parameter["least_squares"]), rel=1e-4)
 
 
-def test_sweep_keeps_the_failed_case_with_its_reason(spavision, tmp_path):
+def test_sweep_tells_the_failed_case_and_the_one_beyond_the_range(spavision, tmp_path):
     done = spavision(
         "study",
         "sweep",
@@ -118,6 +118,8 @@ def test_sweep_keeps_the_failed_case_with_its_reason(spavision, tmp_path):
         "0.2",
         "--vary",
         "side_wall_mm=2.5,8",
+        "--vary",
+        "mesh=draft",
         "-o",
         str(tmp_path / "out"),
         "--json",
@@ -126,6 +128,8 @@ def test_sweep_keeps_the_failed_case_with_its_reason(spavision, tmp_path):
     assert [thin["status"], thick["status"]] == ["ok", "failed"]
     assert "width_mm is 15 mm" in thick["reason"]
     assert "failed: geometry: 2 × side_wall_mm is 16 mm" in done.err
+    assert thin["reason"].startswith("from 60 kPa on beyond the reduced model's range")
+    assert "1 of 2 cases leave the reduced model's range" in done.err
     assert [row["side_wall_mm"] for row in table(tmp_path / "out/sweep/failed.csv")] == ["8"]
 
 
@@ -141,6 +145,10 @@ def test_sweep_keeps_the_failed_case_with_its_reason(spavision, tmp_path):
         ("[suspects.roof_mm]\ndistribution='uniform'\nlow=3\nhigh=4", "outside 3 to 4"),
         ("[study]\nmodel='huge'", "[study] model"),
         ("", "names no suspect"),
+        (
+            "[suspects.law]\ndistribution='choice'\noptions=['slack-fibre','ogden']",
+            "no suspect is an input of the model",
+        ),
     ],
 )
 def test_each_defect_of_a_study_file_is_told_in_one_sentence(spavision, tmp_path, text, sentence):

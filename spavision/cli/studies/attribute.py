@@ -13,8 +13,6 @@ from .runner import Runner
 from .setup import Setup, prepare, study_options
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from spavision.correlate.study.attribution import Attribution
 
 
@@ -38,27 +36,15 @@ def attribute(file: Path, measured: Path | None, full_runs: int, **given: Any) -
     checked against held-out cases, and its Sobol indices (sobol.csv); and what each can explain of the
     distance to the measured path (attribution.csv, figures).
     """
-    from spavision.cli import output
-
     from .measured import measured_paths
 
     setup = prepare("attribute", file, given)
     target = measured_paths(setup, measured)[0]
     found = _attribution(setup, target, full_runs)
     _write(setup, found)
-    if given["as_json"]:
-        output.print_json(
-            {
-                "attribution": records(found.table()),
-                "findings": found.sentences(),
-                "output": str(setup.results.path),
-            }
-        )
-        return
-    if not given["quiet"]:
-        _print(found.table())
-        output.print_lines(found.sentences())
-    output.print_lines([f"Results: {setup.results.path}"])
+    setup.report(
+        {"attribution": records(found.table()), "findings": found.sentences()}, lambda: _print(found)
+    )
 
 
 def _attribution(setup: Setup, target: Any, full_runs: int) -> Attribution:
@@ -89,7 +75,7 @@ def _write(setup: Setup, found: Attribution) -> None:
     results.write_record({**setup.record(), "findings": found.sentences()})
 
 
-def _print(frame: pd.DataFrame) -> None:
+def _print(found: Attribution) -> None:
     from spavision.cli import output
 
     rows = [
@@ -103,10 +89,11 @@ def _print(frame: pd.DataFrame) -> None:
             number(row["largest_change_ux_mm"], 1),
             number(row["largest_total_index"]),
         ]
-        for row in frame.to_dict(orient="records")
+        for row in found.table().to_dict(orient="records")
     ]
     header = ["suspect", "nominal", "low", "high", "best", "explains", "Δx end to end, mm", "Sobol total"]
     output.print_table("What each suspect can explain of the discrepancy", header, rows)
+    output.print_lines(found.sentences())
 
 
 def _cell(value: Any) -> str:

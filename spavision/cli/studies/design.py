@@ -32,7 +32,6 @@ def design(file: Path | None, mode_change_kpa: float | None, tip_path: Path | No
     run there; for the best of them the band that FILE's suspects leave. Writes design.csv, tolerance.csv, a
     figure.
     """
-    from spavision.cli import output
     from spavision.correlate.study.design import Choices
     from spavision.correlate.study.design import design as run_design
 
@@ -45,21 +44,17 @@ def design(file: Path | None, mode_change_kpa: float | None, tip_path: Path | No
     runner.write_cases()
     sentences = _sentences(found)
     _write(setup, found, sentences)
-    if given["as_json"]:
-        output.print_json(
-            {
-                "candidates": records(found.table()),
-                "findings": sentences,
-                "output": str(setup.results.path),
-            }
-        )
-        return
-    if not given["quiet"]:
-        frame = found.table()
-        rows = [[number(value, 4) for value in row] for row in frame.itertuples(index=False)]
-        output.print_table("Best crimp ratio of each strip", list(frame.columns), rows)
-        output.print_lines(sentences)
-    output.print_lines([f"Results: {setup.results.path}"])
+    content = {"candidates": records(found.table()), "findings": sentences}
+    setup.report(content, lambda: _print(found, sentences))
+
+
+def _print(found: Design, sentences: list[str]) -> None:
+    from spavision.cli import output
+
+    frame = found.table()
+    rows = [[number(value, 4) for value in row] for row in frame.itertuples(index=False)]
+    output.print_table("Best crimp ratio of each strip", list(frame.columns), rows)
+    output.print_lines(sentences)
 
 
 def _wish(setup: Setup, mode_change_kpa: float | None, tip_path: Path | None) -> DesignSection:

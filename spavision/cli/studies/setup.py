@@ -167,6 +167,12 @@ class Setup:
         bad = frame[frame["status"] != "ok"]
         self.results.write_text("cases.csv", csv_text(frame))
         self.results.write_text("failed.csv", csv_text(bad))
+        n_beyond = int(((frame["status"] == "ok") & (frame["reason"] != "")).sum())
+        if n_beyond:
+            output.warn(
+                f"{n_beyond} of {len(frame)} cases leave the reduced model's range before the last pressure "
+                "(cases.csv says where); lower pressures_kPa, or use --model full"
+            )
         for _, row in bad.head(_REASONS_SHOWN).iterrows():
             output.warn(f"case {row['case']} {row['status']}: {row['reason']}")
         if len(bad) > _REASONS_SHOWN:
@@ -179,6 +185,15 @@ class Setup:
         for name, figure in figures.items():
             for ending in ("png", "svg"):
                 self.results.write_bytes(f"figures/{name}.{ending}", figure_bytes(figure, ending))
+
+    def report(self, content: dict[str, Any], show: Callable[[], None]) -> None:
+        """Print the result as JSON, or in words, which ``show`` prints, with its place."""
+        if self.given["as_json"]:
+            output.print_json({**content, "output": str(self.results.path)})
+            return
+        if not self.given["quiet"]:
+            show()
+        output.print_lines([f"Results: {self.results.path}"])
 
     def record(self) -> dict[str, Any]:
         """Return what ``run.json`` keeps of the study."""

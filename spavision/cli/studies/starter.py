@@ -65,10 +65,20 @@ distribution = "uniform"
 low = 0
 high = 20
 
-# The law itself, better in a study of its own: with another law the paper's figures above have no effect.
-# [suspects.law]
-# distribution = "choice"
-# options = ["slack-fibre", "resolved", "ogden"]
+# The composite's law, for attribute; tolerance keeps the nominal one, for a form of the model has no scatter.
+# With the other two, which a virtual coupon calibrates, the paper's figures above have no effect.
+[suspects.law]
+distribution = "choice"
+options = ["slack-fibre", "resolved", "ogden"]
+
+# The gauge. A dial of class 2.5 (EN 837-1) may be off by 2.5 % of its span anywhere: by 2.5 kPa on one of
+# 100 kPa, by 10 kPa on one of 400 kPa. The article names none: put your own here. 5 % is assumed.
+[suspects.pressure_offset_kPa]
+distribution = "uniform"
+plus_minus = 2.5
+[suspects.pressure_scale]      # true over read pressure
+distribution = "normal"
+sigma = 0.05
 
 # Set-up.
 [suspects.gravity_tilt_deg]

@@ -13,6 +13,8 @@ from spavision.table_text import csv_text, records
 from .setup import Setup, prepare, study_options
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from spavision.correlate.study.parameters import Value
 
 
@@ -33,7 +35,6 @@ def sweep(file: Path | None, vary: tuple[str, ...], **given: Any) -> None:
 
     Writes cases.csv with the mode change of each case, paths.csv, a figure.
     """  # noqa: D301
-    from spavision.cli import output
     from spavision.correlate.study.case_table import case_table
     from spavision.correlate.study.parameters import nominal_value
     from spavision.correlate.study.sampling import grid_values
@@ -50,16 +51,15 @@ def sweep(file: Path | None, vary: tuple[str, ...], **given: Any) -> None:
     _write_paths(setup, cases, results)
     setup.results.write_record({**setup.record(), "grid": {name: list(each) for name, each in grid.items()}})
     frame = case_table(cases, results)
-    if given["as_json"]:
-        output.print_json({"cases": records(frame), "output": str(setup.results.path)})
-        return
-    if not given["quiet"]:
-        names = [*grid, "first_extremum_mm", "mode_change_kPa", "second_extreme_mm"]
-        rows = [
-            [*(_cell(row[name]) for name in names), row["status"]] for row in frame.to_dict(orient="records")
-        ]
-        output.print_table("Sweep", [*names, "remark"], rows)
-    output.print_lines([f"Results: {setup.results.path}"])
+    setup.report({"cases": records(frame)}, lambda: _print(frame, list(grid)))
+
+
+def _print(frame: pd.DataFrame, varied: list[str]) -> None:
+    from spavision.cli import output
+
+    names = [*varied, "first_extremum_mm", "mode_change_kPa", "second_extreme_mm"]
+    rows = [[*(_cell(row[name]) for name in names), row["status"]] for row in frame.to_dict(orient="records")]
+    output.print_table("Sweep", [*names, "remark"], rows)
 
 
 def _write_paths(setup: Setup, cases: Any, results: Any) -> None:

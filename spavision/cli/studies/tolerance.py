@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from spavision.errors import InputError
 from spavision.table_text import csv_text, number, records
 
 from .setup import Setup, prepare, study_options
 
 if TYPE_CHECKING:
     from spavision.correlate.study.band import Band
+    from spavision.correlate.study.suspects import Suspect
 
 BAND_NAME = "tolerance.csv"
 
@@ -26,13 +28,12 @@ def tolerance(file: Path, **given: Any) -> None:
     Writes tolerance.csv (band and u_input at each pressure), cases.csv, a figure. correlate --study takes
     u_input from the folder.
     """
-    from spavision.cli import output
     from spavision.correlate.study.band import band
     from spavision.correlate.study.plan import refuse_failed
     from spavision.correlate.study.sampling import draw_shares, values_at
 
     setup = prepare("tolerance", file, given)
-    suspects = tuple(one for one in setup.suspects() if not one.moves_the_measurement)
+    suspects = _inputs(setup)
     study = setup.study.study
     points = draw_shares(len(suspects), study.cases, sampling=study.sampling, seed=study.seed)
     cases = [setup.case({}), *(setup.case(values) for values in values_at(suspects, points))]
@@ -41,12 +42,25 @@ def tolerance(file: Path, **given: Any) -> None:
     setup.write_cases(cases[1:], results)
     found = band(nominal.path(setup.pressures_kPa), results)
     _write(setup, found)
-    if given["as_json"]:
-        output.print_json({"band": records(found.table()), "output": str(setup.results.path)})
-        return
-    if not given["quiet"]:
-        _print(found)
-    output.print_lines([f"Results: {setup.results.path}"])
+    setup.report({"band": records(found.table())}, lambda: _print(found))
+
+
+def _inputs(setup: Setup) -> tuple[Suspect, ...]:
+    from spavision.cli import output
+
+    suspects = setup.suspects()
+    for one in suspects:
+        if one.is_form:
+            output.warn(
+                f"{one.name} chooses the form of the model, which has no scatter: it stays {one.nominal} "
+                "here; attribute varies it"
+            )
+    inputs = tuple(one for one in suspects if one.is_input)
+    if not inputs:
+        raise InputError(
+            f"{setup.source}: no suspect is an input of the model; add one, such as side_wall_mm"
+        )
+    return inputs
 
 
 def _write(setup: Setup, found: Band) -> None:

@@ -58,19 +58,12 @@ def update(file: Path, measured: Path | None, full_runs: int, **given: Any) -> N
         found = run_update(setup.plan(suspects, n_full=full_runs), paths, runner, steps=steps)
     runner.write_cases()
     _write(setup, found)
-    if given["as_json"]:
-        output.print_json(
-            {
-                "parameters": records(found.table()),
-                "paths": records(found.comparison_table()),
-                "findings": found.sentences(),
-                "output": str(setup.results.path),
-            }
-        )
-        return
-    if not given["quiet"]:
-        output.print_lines(found.sentences())
-    output.print_lines([f"Results: {setup.results.path}"])
+    content = {
+        "parameters": records(found.table()),
+        "paths": records(found.comparison_table()),
+        "findings": found.sentences(),
+    }
+    setup.report(content, lambda: output.print_lines(found.sentences()))
 
 
 def _parameters(setup: Setup) -> tuple[Suspect, ...]:

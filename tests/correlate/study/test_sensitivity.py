@@ -12,7 +12,12 @@ from spavision.correlate.study.band import band
 from spavision.correlate.study.case import CaseResult
 from spavision.correlate.study.explanation import Target, explain_alone, reading_factor
 from spavision.correlate.study.sampling import draw_shares
-from spavision.correlate.study.sensitivity import sobol_indices
+from spavision.correlate.study.sensitivity import (
+    LocalSensitivity,
+    likenesses,
+    local_sensitivities,
+    sobol_indices,
+)
 from spavision.correlate.study.study_file import StudyFile
 from spavision.correlate.study.suspects import Suspect, suspects_of
 from spavision.experiment import Experiment
@@ -101,3 +106,41 @@ def test_material_without_options_takes_the_alternatives_of_the_library() -> Non
     assert len(stiffness) > 3
     assert stiffness == sorted(stiffness)
     assert suspect.value(suspect.share("Ecoflex 00-30")) == "Ecoflex 00-30"
+
+
+def test_choice_goes_between_the_options_that_are_furthest_apart() -> None:
+    """Options at 1, 5 and 2 mm: from the first to the second, by 4 mm; a number goes from end to end."""
+    law = Suspect("law", "composite", "a", "", options=("a", "b", "c"))
+    slope = number("slope", 0.0, 1.0)
+    results = [CaseResult("ok", "", (0.0, x), (0.0, 0.0), 0.0) for x in (1.0, 5.0, 2.0, 3.0, -3.0)]
+    choice, line = local_sensitivities((law, slope), results)
+    assert choice.ends == ("a", "b")
+    assert choice.change_mm.tolist() == [[0.0, 4.0], [0.0, 0.0]]
+    assert line.ends == pytest.approx((0.025, 0.975))
+    assert line.change_mm[0, 1] == -6.0
+
+
+def test_suspects_that_move_the_tip_in_proportion_are_named() -> None:
+    """(1, 2, 3) and −2·(1, 2, 3): cosine −1; (3, 0, −1) is at right angles; a thousandth is not spoken of."""
+    ramp, other = np.array([1.0, 2.0, 3.0]), np.array([3.0, 0.0, -1.0])
+    changes = {"gauge": ramp, "stiffness": -2.0 * ramp, "wall": other, "bulk": 1e-3 * ramp}
+    found = likenesses(
+        [
+            LocalSensitivity(number(name, 0.0, 1.0), (0.0, 1.0), np.array([change, 0.0 * change]))
+            for name, change in changes.items()
+        ]
+    )
+    assert [(one.names, round(one.cosine, 9)) for one in found] == [(("gauge", "stiffness"), -1.0)]
+    assert "gauge and stiffness move the tip alike (cosine -1.000)" in found[0].sentence()
+
+
+def test_form_of_the_model_and_the_measurement_are_no_inputs() -> None:
+    content = {
+        "law": {"distribution": "choice", "options": ["slack-fibre", "ogden"]},
+        "standoff_mm": {"distribution": "normal", "mean": 20, "sigma": 1},
+        "pressure_scale": {"distribution": "normal", "sigma": 0.05},
+    }
+    study = StudyFile.model_validate({"suspects": content})
+    found = suspects_of(study, Experiment(), source="study")
+    assert [one.name for one in found if one.is_input] == ["pressure_scale"]
+    assert [one.name for one in found if not one.moves_the_measurement] == ["law", "pressure_scale"]

@@ -11,6 +11,7 @@ from scipy.interpolate import PchipInterpolator
 
 from spavision.correlate.modes import find_modes
 from spavision.errors import InputError
+from spavision.model.materials.library import find_material
 from spavision.tip_path import FloatArray, TipPath
 
 from .case import CaseResult, displacements
@@ -30,6 +31,33 @@ Score = Callable[[TipPath], float]
 
 
 @dataclass(frozen=True)
+class Strip:
+    """A strip on region B.
+
+    Parameters
+    ----------
+    thickness_mm : float
+        0 for none.
+    material : str
+        In the material library; empty for none.
+    """
+
+    thickness_mm: float
+    material: str
+
+    @property
+    def values(self) -> dict[str, Value]:
+        """The parameters that it sets."""
+        made_of: dict[str, Value] = {"strip_b_material": self.material} if self.material else {}
+        return {"strip_b_mm": self.thickness_mm, **made_of}
+
+    @property
+    def label(self) -> str:
+        """The strip in words."""
+        return f"{self.thickness_mm:g} mm strip of {self.material}" if self.material else "no strip"
+
+
+@dataclass(frozen=True)
 class Choices:
     """What there is to choose from.
 
@@ -37,11 +65,11 @@ class Choices:
     ----------
     crimp_ratios : tuple of float
         At which the model is run first; the answer lies between them.
-    strips_mm : tuple of float
+    strips : tuple of Strip
     """
 
     crimp_ratios: tuple[float, ...]
-    strips_mm: tuple[float, ...]
+    strips: tuple[Strip, ...]
 
 
 @dataclass(frozen=True)
@@ -50,7 +78,8 @@ class Candidate:
 
     Parameters
     ----------
-    crimp_ratio, strip_b_mm : float
+    crimp_ratio : float
+    strip : Strip
     path : TipPath
         Of the model there.
     score : float
@@ -58,9 +87,14 @@ class Candidate:
     """
 
     crimp_ratio: float
-    strip_b_mm: float
+    strip: Strip
     path: TipPath
     score: float
+
+    @property
+    def label(self) -> str:
+        """The candidate in words."""
+        return f"crimp ratio {self.crimp_ratio:.3f}, {self.strip.label}"
 
 
 @dataclass(frozen=True)
@@ -90,7 +124,8 @@ class Design:
             modes = find_modes(one.path)
             rows.append(
                 {
-                    "strip_b_mm": one.strip_b_mm,
+                    "strip_b_mm": one.strip.thickness_mm,
+                    "strip_b_material": one.strip.material,
                     "crimp_ratio": one.crimp_ratio,
                     f"off_by_{self.unit}": one.score,
                     "mode_change_kPa": modes.first_extremum_kPa if modes.reverses else float("nan"),
@@ -103,6 +138,24 @@ class Design:
         """Pressures of the mode change over the scatter; NaN where a case does not turn round."""
         pressures = self.candidates[0].path.pressure_kPa
         return np.array([_mode_change(one.path(pressures.tolist())) for one in self.scatter])
+
+
+def strips_of(thicknesses_mm: Sequence[float], materials: Sequence[str]) -> tuple[Strip, ...]:
+    """Return every strip once: each thickness of each material, and none where a thickness is 0.
+
+    Raises
+    ------
+    InputError
+        If a material is unknown.
+    """
+    for material in materials:
+        find_material(material)
+    found = [
+        Strip(thickness, material if thickness > 0.0 else "")
+        for thickness in thicknesses_mm
+        for material in materials
+    ]
+    return tuple(dict.fromkeys(found))
 
 
 def mode_change_score(wished_kPa: float) -> Score:
@@ -150,7 +203,7 @@ def design(plan: Plan, choices: Choices, score: Score, run: RunCases, *, unit: s
         If no case comes to a result that can be scored.
     """
     pressures = plan.pressures_kPa
-    known = {strip: list(choices.crimp_ratios) for strip in choices.strips_mm}
+    known = {strip: list(choices.crimp_ratios) for strip in choices.strips}
     for _ in range(_ROUNDS):
         for strip, ratios in known.items():
             results = run([_values(ratio, strip) for ratio in ratios])
@@ -171,8 +224,8 @@ def design(plan: Plan, choices: Choices, score: Score, run: RunCases, *, unit: s
     return Design(tuple(ordered), unit, tuple(_scatter(plan, ordered[0], run)))
 
 
-def _values(crimp_ratio: float, strip_mm: float) -> dict[str, Value]:
-    return {"crimp_ratio": crimp_ratio, "strip_b_mm": strip_mm}
+def _values(crimp_ratio: float, strip: Strip) -> dict[str, Value]:
+    return {"crimp_ratio": crimp_ratio, **strip.values}
 
 
 def _interpolated_best(
@@ -195,11 +248,13 @@ def _interpolated_best(
 
 def _scatter(plan: Plan, best: Candidate, run: RunCases) -> list[CaseResult]:
     """Run the best candidate with the suspects drawn at random, strip and crimp ratio about its own."""
-    suspects = tuple(one for one in plan.suspects if one.is_input)
+    chosen = _values(best.crimp_ratio, best.strip)
+    # What the strip is made of, and that there is none, is chosen and does not scatter.
+    fixed = {"strip_b_material", *(() if best.strip.material else ("strip_b_mm",))}
+    suspects = tuple(one for one in plan.suspects if one.is_input and one.name not in fixed)
     if not suspects:
         return []
     points = draw_shares(len(suspects), plan.n_cases, sampling=plan.sampling, seed=plan.seed)
-    chosen = _values(best.crimp_ratio, best.strip_b_mm)
     nominal = {one.name: one.nominal for one in suspects if one.name in chosen}
     cases = []
     for drawn in values_at(suspects, points):

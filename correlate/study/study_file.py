@@ -90,6 +90,10 @@ class DesignSection(Section):
         (0.0, 1.0, 2.0, 3.0), min_length=1, description="strips on region B to choose from, mm"
     )
 
+    strip_materials: tuple[str, ...] = Field(
+        ("Mold Star 15 two-term", "Smooth-Sil 950"), min_length=1, description="silicones of these strips"
+    )
+
     @model_validator(mode="after")
     def _one_wish(self) -> DesignSection:
         if (self.mode_change_kPa is None) == (self.tip_path is None):

@@ -28,11 +28,11 @@ if TYPE_CHECKING:
 def design(file: Path | None, mode_change_kpa: float | None, tip_path: Path | None, **given: Any) -> None:
     """Choose crimp ratio and strip for a wished mode-change pressure or tip path.
 
-    For each strip under FILE's [design] the best crimp ratio, found between computed ones and confirmed by a
-    run there; for the best of them the band that FILE's suspects leave. Writes design.csv, tolerance.csv, a
-    figure.
+    For each strip under FILE's [design], of either silicone or none, the best crimp ratio, found between
+    computed ones and confirmed by a run there; for the best of them the band that FILE's suspects leave.
+    Writes design.csv, tolerance.csv, figures.
     """
-    from spavision.correlate.study.design import Choices
+    from spavision.correlate.study.design import Choices, strips_of
     from spavision.correlate.study.design import design as run_design
 
     setup = prepare("design", file, given)
@@ -40,7 +40,8 @@ def design(file: Path | None, mode_change_kpa: float | None, tip_path: Path | No
     plan = setup.plan(setup.suspects() if setup.study.suspects else (), n_full=0)
     score, unit = _score(setup, wish, plan)
     runner = Runner(setup)
-    found = run_design(plan, Choices(wish.crimp_ratios, wish.strips_mm), score, runner, unit=unit)
+    choices = Choices(wish.crimp_ratios, strips_of(wish.strips_mm, wish.strip_materials))
+    found = run_design(plan, choices, score, runner, unit=unit)
     runner.write_cases()
     sentences = _sentences(found)
     _write(setup, found, sentences)
@@ -52,7 +53,10 @@ def _print(found: Design, sentences: list[str]) -> None:
     from spavision.cli import output
 
     frame = found.table()
-    rows = [[number(value, 4) for value in row] for row in frame.itertuples(index=False)]
+    rows = [
+        [value if isinstance(value, str) else number(value, 4) for value in row]
+        for row in frame.itertuples(index=False)
+    ]
     output.print_table("Best crimp ratio of each strip", list(frame.columns), rows)
     output.print_lines(sentences)
 
@@ -86,10 +90,7 @@ def _sentences(found: Design) -> list[str]:
     import numpy as np
 
     best = found.candidates[0]
-    sentences = [
-        f"Best: crimp ratio {best.crimp_ratio:.3f} with a strip of {best.strip_b_mm:g} mm, off by "
-        f"{best.score:.2g} {found.unit}."
-    ]
+    sentences = [f"Best: {best.label}, off by {best.score:.2g} {found.unit}."]
     changes = found.mode_changes_kPa()
     turning = changes[np.isfinite(changes)]
     if len(turning):
@@ -108,7 +109,7 @@ def _write(setup: Setup, found: Design, sentences: list[str]) -> None:
     results = setup.results
     results.write_text("design.csv", csv_text(found.table()))
     paths = [one.path for one in found.candidates]
-    labels = [f"strip {one.strip_b_mm:g} mm, crimp ratio {one.crimp_ratio:.3f}" for one in found.candidates]
+    labels = [one.label for one in found.candidates]
     figures = {"design": sweep_figure(paths, labels, title="Best of each strip")}
     if found.scatter:
         around: Band = band(found.candidates[0].path, found.scatter)

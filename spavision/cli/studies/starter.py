@@ -102,7 +102,8 @@ sigma = 1
 # [design]
 # mode_change_kPa = 45
 # crimp_ratios = [0.15, 0.2, 0.25, 0.3, 0.35]
-# strips_mm = [1, 2, 3]
+# strips_mm = [0, 1, 2, 3]      # 0: none
+# strip_materials = ["Mold Star 15 two-term", "Smooth-Sil 950"]
 
 # For sweep: every combination of these values.
 # [grid]

@@ -8,11 +8,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from spavision.correlate.study.case import CaseResult
-from spavision.correlate.study.design import Choices, design, mode_change_score
 from spavision.correlate.study.explanation import Target
 from spavision.correlate.study.identifiability import identified
-from spavision.correlate.study.plan import Plan
 from spavision.correlate.study.posterior import Misfit, best_point, sample_posterior
 from spavision.correlate.study.suspects import Suspect
 from spavision.experiment import Experiment
@@ -70,27 +67,3 @@ def test_parameters_of_which_only_a_combination_is_seen_are_told() -> None:
     )
     assert found.correlation[0, 1] < -0.95
     assert identified(found, 2).verdict == "not identified"
-
-
-def test_design_finds_the_crimp_ratio_of_a_parabola() -> None:
-    """ux = p (2 t − p) turns at t = 200 CR: 46 kPa needs crimp ratio 0.23, whatever the strip."""
-    pressures = tuple(float(p) for p in range(0, 80, 5))
-
-    def run(values, model="", crimp_ratio=None):  # noqa: ARG001
-        return [
-            CaseResult(
-                "ok",
-                "",
-                tuple(p * (400.0 * one["crimp_ratio"] - p) for p in pressures),
-                pressures,
-                0.0,
-            )
-            for one in values
-        ]
-
-    plan = Plan((), Experiment(), pressures, n_cases=8, n_full=0, sampling="sobol", seed=1)
-    found = design(
-        plan, Choices((0.15, 0.2, 0.25, 0.3), (1.0, 3.0)), mode_change_score(46.0), run, unit="kPa"
-    )
-    assert [one.crimp_ratio for one in found.candidates] == pytest.approx([0.23, 0.23], abs=5e-4)
-    assert found.candidates[0].score < 0.1

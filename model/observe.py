@@ -39,16 +39,7 @@ def locate(mesh: HexMesh, position_mm: FloatArray) -> MaterialPoint:
     ValueError
         If the point lies outside the body.
     """
-    corners = mesh.nodes_mm[mesh.elements]
-    low, high = corners.min(axis=1), corners.max(axis=1)
-    slack = 1e-9 * (high - low).max()
-    inside = np.all((position_mm >= low - slack) & (position_mm <= high + slack), axis=1)
-    if not inside.any():
-        raise ValueError(f"the point {position_mm} lies outside the body")
-    element = int(np.flatnonzero(inside)[0])
-    local = _local_coordinates(mesh, element, position_mm)
-    values, _ = shape_functions(mesh.order, local[None, :])
-    return MaterialPoint(mesh.elements[element], values[0])
+    return _locate_all(mesh, position_mm[None, :])[0]
 
 
 def centre_line(mesh: HexMesh, geometry: ActuatorGeometry, displacement_mm: FloatArray) -> FloatArray:
@@ -70,9 +61,26 @@ def centre_line(mesh: HexMesh, geometry: ActuatorGeometry, displacement_mm: Floa
     x = 0.5 * (geometry.body_base_mm + geometry.height_mm + geometry.strip_b_mm)
     stations = np.linspace(0.0, geometry.length_mm, 4 * geometry.void_count + 1)
     positions = np.array([(x, y, 0.5 * geometry.width_mm) for y in stations])
-    points = [locate(mesh, position) for position in positions]
+    points = _locate_all(mesh, positions)
     moved = np.stack([point.displacement(displacement_mm) for point in points], axis=-2)
     return (moved + positions)[..., :2]
+
+
+def _locate_all(mesh: HexMesh, positions_mm: FloatArray) -> list[MaterialPoint]:
+    """Find points, shape (n, 3), see `locate`."""
+    corners = mesh.nodes_mm[mesh.elements]
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    slack = 1e-9 * (high - low).max()
+    points = []
+    for position in positions_mm:
+        inside = np.all((position >= low - slack) & (position <= high + slack), axis=1)
+        if not inside.any():
+            raise ValueError(f"the point {position} lies outside the body")
+        element = int(np.flatnonzero(inside)[0])
+        local = _local_coordinates(mesh, element, position)
+        values, _ = shape_functions(mesh.order, local[None, :])
+        points.append(MaterialPoint(mesh.elements[element], values[0]))
+    return points
 
 
 def _local_coordinates(mesh: HexMesh, element: int, position_mm: FloatArray) -> FloatArray:

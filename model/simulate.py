@@ -18,6 +18,7 @@ from .hex_mesh import HexMesh
 from .journal import Checkpoint, Journal
 from .linear_solver import LinearSolver, linear_solver
 from .observe import centre_line, locate
+from .quiet_threads import quiet_blas
 from .simulation import Simulation, SimulationSettings, StepRecord
 from .volume_control import volume_ramp
 
@@ -75,10 +76,11 @@ def simulate(
     journal = Journal(problem, pressures, progress)
     stop: RampStoppedError | None = None
     try:
-        for step in _ramp(problem, journal, pressures[pressures > 0.0], settings, solver, resume):
-            journal.add(step)
-            if keep is not None and step.place is not None:
-                keep(journal.checkpoint(step.place))
+        with quiet_blas():
+            for step in _ramp(problem, journal, pressures[pressures > 0.0], settings, solver, resume):
+                journal.add(step)
+                if keep is not None and step.place is not None:
+                    keep(journal.checkpoint(step.place))
     except RampStoppedError as error:
         stop = error
     return Simulation(

@@ -96,7 +96,11 @@ class GaugeSection(Section):
         1.0, ge=0.2, le=5, allow_inf_nan=False, description="true over read pressure, by calibration"
     )
     pressure_offset_kPa: float = Field(
-        0.0, ge=-50, le=50, allow_inf_nan=False, description="true pressure less that, at readings above 0, kPa"
+        0.0,
+        ge=-50,
+        le=50,
+        allow_inf_nan=False,
+        description="true pressure less that, at readings above 0, kPa",
     )
 
 

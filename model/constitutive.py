@@ -12,6 +12,7 @@ from .fibre_points import FibreFamily, add_fibres, fibre_response
 from .hex_mesh import HexMesh
 from .materials.solid import IsotropicLaw, SolidMaterial
 from .stress_kernels import deformation, principal_moduli, principal_stress
+from .volume_guard import add_guard, guard_energy
 
 
 @dataclass(frozen=True)
@@ -148,7 +149,8 @@ def isochoric_energy(groups: tuple[MaterialGroup, ...], state: Deformation, volu
     total = 0.0
     for group in groups:
         part = _take(state, group.elements)
-        density = group.material.law.energy(_isochoric(part.log_stretch))
+        law = group.material.law
+        density = law.energy(_isochoric(part.log_stretch)) + guard_energy(part.J, law.shear_modulus_MPa)
         for fibre in group.material.fibres:
             density = density + fibre.energy(np.linalg.norm(part.F @ np.asarray(fibre.direction), axis=1))
         total += float(density @ volumes[group.elements].ravel())
@@ -175,4 +177,5 @@ def _evaluate(law: IsotropicLaw, state: Deformation) -> tuple[FloatArray, FloatA
     moduli = np.empty((len(first), 6, 6))
     principal_stress(state.directions, first, stress)
     principal_moduli(state.directions, state.log_stretch, first, second, moduli)
+    add_guard(state.J, law.shear_modulus_MPa, stress, moduli)
     return stress, moduli

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import os
 from collections import Counter
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,6 +18,7 @@ from .calibration import Calibration, CalibrationPhoto, CalibrationSettings
 from .calibration_corners import BoardCorners, lattice_corners, opencv_corners, within_board
 from .coverage import cover, coverage_notes
 from .photos import read_photo
+from .threads import in_threads
 
 FEWEST_PHOTOS = 3
 GOOD_NUMBER_OF_PHOTOS = 8
@@ -95,12 +94,10 @@ def _search_all(
     paths: Sequence[Path], settings: CalibrationSettings, progress: Callable[[str], None] | None
 ) -> list[_Found]:
     found = []
-    # As in the tracker: OpenCV and NumPy let other threads run meanwhile.
-    with ThreadPoolExecutor(max_workers=max(1, min(os.cpu_count() or 1, len(paths)))) as pool:
-        for each in pool.map(lambda path: _search(path, settings), paths):
-            found.append(each)
-            if progress is not None:
-                progress(each.name)
+    for each in in_threads(lambda path: _search(path, settings), paths):
+        found.append(each)
+        if progress is not None:
+            progress(each.name)
     return found
 
 

@@ -57,11 +57,21 @@ def find_rim(
     inside : array, shape (3,)
         Colour of the spot.
     """
-    looks = [_look(image, board, centre_px, radius_squares, inside, separation) for separation in SEPARATIONS]
-    found = [look for look in looks if look is not None]
+    looks: list[tuple[Rim, Circle]] = []
+    for separation in SEPARATIONS:
+        look = _look(image, board, centre_px, radius_squares, inside, separation)
+        if look is not None:
+            looks.append(look)
+            if _share_seen(look) == 1.0:
+                break
     # Where both see as much, always the first: half contrast lies elsewhere in the other's colours, and the
     # rims of a series are compared.
-    return max(found, key=lambda look: round(look[1].coverage, 1), default=None)
+    return max(looks, key=_share_seen, default=None)
+
+
+def _share_seen(look: tuple[Rim, Circle]) -> float:
+    """Share of the rim that a look rests on, to a tenth."""
+    return round(look[1].coverage, 1)
 
 
 def _look(

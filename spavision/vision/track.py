@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from types import MappingProxyType
 
@@ -31,6 +29,7 @@ from .scale import CameraFit, fit_camera
 from .settings import TrackSettings
 from .stations import Stations, group_stations
 from .suitable import refuse_hopeless, set_aside_strangers
+from .threads import in_threads, one_blas_thread
 
 NO_CORRECTIONS: Corrections = MappingProxyType({})
 
@@ -96,15 +95,20 @@ def track_observations(
     """
     order = np.argsort(np.asarray(pressures_kPa, dtype=float), kind="stable")
     pressures = np.asarray(pressures_kPa, dtype=float)[order]
-    observations = [observations[k] for k in order]
+    with one_blas_thread():
+        evidence = _evidence([observations[k] for k in order], settings, corrections)
+        return _assemble(pressures, evidence, find_places(evidence))
+
+
+def _evidence(observations: list[Observation], settings: TrackSettings, corrections: Corrections) -> Evidence:
+    """Bring photographs in order of pressure into one lattice, and fit the camera to all of them."""
     refuse_outside_pixels(corrections, observations)
     observations = set_aside_strangers(observations)
     refuse_hopeless(observations, given_by_hand=any(c.pixel is not None for c in corrections.values()))
     observations = without_corrected_spots(corrections, observations)
     observations, origin, stations = _in_one_lattice(observations)
     fit = _fit(observations, origin, stations, settings)
-    evidence = Evidence(observations, stations, fit, settings, corrections)
-    return _assemble(pressures, evidence, find_places(evidence))
+    return Evidence(observations, stations, fit, settings, corrections)
 
 
 def _in_one_lattice(observations: list[Observation]) -> tuple[list[Observation], int, Stations]:
@@ -139,14 +143,11 @@ def observe_photos(
                 memory.keep(path, found)
         return found
 
-    workers = settings.workers or os.cpu_count() or 1
     observations = []
-    # Nearly all the time is spent in OpenCV and NumPy, which let other threads run meanwhile.
-    with ThreadPoolExecutor(max_workers=max(1, min(workers, len(paths)))) as pool:
-        for observation in pool.map(observed, paths):
-            observations.append(observation)
-            if progress is not None:
-                progress(observation.name)
+    for observation in in_threads(observed, paths, workers=settings.workers):
+        observations.append(observation)
+        if progress is not None:
+            progress(observation.name)
     return observations
 
 

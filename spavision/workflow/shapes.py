@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,6 +23,7 @@ def measure_shapes(
     from spavision.vision.result import Reading
     from spavision.vision.shape import NO_BOARD, ShapeReading, shape_of
     from spavision.vision.shape_series import agreeing_shapes
+    from spavision.vision.threads import in_threads
 
     paths: dict[str, Path] = {path.name: path for path in series.photos}
 
@@ -34,13 +33,9 @@ def measure_shapes(
         photo = read_photo(paths[reading.photo], largest_megapixels=series.settings.largest_megapixels)
         return shape_of(photo.rgb, reading, track, body_width_mm=actuator.width_mm)
 
-    workers = series.settings.workers or os.cpu_count() or 1
     shapes = []
-    with (
-        progress_bar("shapes", total=len(track.readings), quiet=quiet) as advance,
-        ThreadPoolExecutor(max_workers=max(1, min(workers, len(track.readings)))) as pool,
-    ):
-        for shape in pool.map(measured, track.readings):
+    with progress_bar("shapes", total=len(track.readings), quiet=quiet) as advance:
+        for shape in in_threads(measured, track.readings, workers=series.settings.workers):
             shapes.append(shape)
             advance(shape.photo, len(shapes))
     return agreeing_shapes(shapes)

@@ -264,7 +264,7 @@ def compare(
     if study is not None:
         from spavision.workflow.study_results import read_study_results
 
-        studied = read_study_results(Path(study), crimp_ratio=source.experiment.actuator.crimp_ratio)
+        studied = read_study_results(Path(study), source.experiment)
     if modelled is None:
         return Compared(compare_with_model(side, quiet=not progress, study=studied), results)
     results.take_over(modelled.scratch)

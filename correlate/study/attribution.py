@@ -10,8 +10,9 @@ import numpy as np
 from spavision.errors import InputError
 from spavision.tip_path import FloatArray, TipPath
 
+from .case import CaseResult, displacements
 from .emulator import EmulatorCheck, check_emulator, fit_emulator
-from .explanation import Explanation, explain_alone, explain_together, measured_target
+from .explanation import Explanation, explain_alone, explain_forms, explain_together, measured_target
 from .plan import Plan, RunCases, full_model_error, full_runs, n_fitted, refuse_failed
 from .sampling import draw_shares, one_at_a_time, values_at
 from .sensitivity import LocalSensitivity, SobolIndices, likenesses, local_sensitivities, sobol_indices
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
     import pandas as pd
 
 _LIKENESSES_SAID = 4
+
+_TRUSTWORTHY = 0.9
+"""Predicted share of the held-out variance below which an emulator is not to be relied on."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +37,7 @@ class Attribution:
     alone : tuple of Explanation
         One for each suspect of the plan.
     together : Explanation
-        All suspects of the model at once.
+        All inputs of the model at once.
     computed_rmse_mm : float
         What the model itself, not the emulator, leaves there; NaN if that case failed.
     local : tuple of LocalSensitivity
@@ -91,13 +95,18 @@ class Attribution:
         found = [
             f"Model and measurement are {best.nominal_rmse_mm:.1f} mm apart (root mean square distance).",
             f"Alone, {name} explains most: {100 * best.explained:.0f} % of it, at {text}.",
-            f"All suspects of the model together leave {self.together.rmse_mm:.1f} mm "
+            f"All inputs of the model together leave {self.together.rmse_mm:.1f} mm "
             f"({100 * self.together.explained:.0f} % explained; the model itself, run there, leaves "
             f"{self.computed_rmse_mm:.1f} mm).",
             f"The emulator predicts {100 * self.check.predictivity:.1f} % of the variance of "
             f"{len(self.check.error_mm)} held-out cases; its error is at most {rmse.max():.1f} mm "
             "(root mean square, at the worst pressure).",
         ]
+        if self.check.predictivity < _TRUSTWORTHY:
+            found.append(
+                "That is too little to trust its indices and shares: raise cases in [study], narrow the "
+                "suspects, or lower the highest pressure."
+            )
         if self.full_check_mm.size:
             error = np.sqrt(np.nanmean(self.full_check_mm**2))
             found.append(
@@ -128,15 +137,14 @@ def attribute(plan: Plan, measured: TipPath, run: RunCases) -> Attribution:
     InputError
         If the nominal case fails, no measured pressure is among the study's, or too few cases succeed.
     """
-    suspects, seed = plan.of_the_model, plan.seed
+    suspects, seed = plan.inputs, plan.seed
     points = draw_shares(len(suspects), plan.n_cases, sampling=plan.sampling, seed=seed)
-    single, random = one_at_a_time(suspects), values_at(suspects, points)
-    nominal, *results = run([{}, *single, *random])
+    ends, forms = one_at_a_time(suspects), one_at_a_time(plan.forms)
+    nominal, *results = run([{}, *ends, *forms, *values_at(suspects, points)])
     refuse_failed(nominal)
-    drawn = results[len(single) :]
+    alone, drawn = results[: len(ends) + len(forms)], results[len(ends) + len(forms) :]
     fitted = n_fitted(plan.n_cases)
     emulator = fit_emulator(suspects, points[:fitted], drawn[:fitted], seed=seed)
-    check = check_emulator(emulator, points[fitted:], drawn[fitted:])
     middle = nominal_point(suspects)
     full = full_runs(plan, points[fitted:], run)
     best_nominal = full[0] if full and full[0].status != "failed" else nominal
@@ -144,19 +152,27 @@ def attribute(plan: Plan, measured: TipPath, run: RunCases) -> Attribution:
     if not np.isfinite(target.measured_mm).any():
         raise InputError("the measured path and the study share no pressure; set pressures_kPa in [study]")
     together, _ = explain_together(emulator, target, nominal=middle, seed=seed)
-    (computed,) = run([together.values])
-    change = np.array([computed.ux_mm, computed.uy_mm]) - np.array([nominal.ux_mm, nominal.uy_mm])
+    by_form = explain_forms(target, plan.forms, _changes(alone[len(ends) :], nominal))
     return Attribution(
         plan=plan,
-        alone=tuple(explain_alone(emulator, target, one, nominal=middle) for one in plan.suspects),
+        alone=tuple(
+            by_form[one.name] if one.is_form else explain_alone(emulator, target, one, nominal=middle)
+            for one in plan.suspects
+        ),
         together=together,
-        computed_rmse_mm=float(target.rmse_mm(change[None], np.ones(1))[0]),
-        local=local_sensitivities(suspects, results[: len(single)]),
+        computed_rmse_mm=float(target.rmse_mm(_changes(run([together.values]), nominal), np.ones(1))[0]),
+        local=local_sensitivities((*suspects, *plan.forms), alone),
         sobol=sobol_indices(emulator, np.array(plan.pressures_kPa), seed=seed),
-        check=check,
+        check=check_emulator(emulator, points[fitted:], drawn[fitted:]),
         full_check_mm=full_model_error(emulator, points[fitted:], middle, full),
         n_not_whole=sum(result.status != "ok" for result in drawn),
     )
+
+
+def _changes(results: list[CaseResult], nominal: CaseResult) -> FloatArray:
+    """Return the changes of the tip from the nominal case, shape (n_cases, 2, n_pressures)."""
+    values = displacements(results).reshape(len(results), 2, len(nominal.ux_mm))
+    return np.asarray(values - displacements([nominal]))
 
 
 def _largest(values: FloatArray) -> float:

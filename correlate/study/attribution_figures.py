@@ -27,7 +27,7 @@ def attribution_figure(alone: Sequence[Explanation], together: Explanation, *, t
     axes = figure.add_subplot()
     axes.barh(range(len(ordered)), removed, color=MODELLED_COLOUR)
     axes.barh([len(ordered)], [together.nominal_rmse_mm - together.rmse_mm], color=MEASURED_COLOUR)
-    axes.set_yticks(range(len(ordered) + 1), [*names, "all of the model's together"])
+    axes.set_yticks(range(len(ordered) + 1), [*names, "all inputs of the model together"])
     for row, one in enumerate(ordered):
         text = f" {100 * one.explained:.0f} % at {_text(next(iter(one.values.values())))}"
         axes.text(

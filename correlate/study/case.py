@@ -19,7 +19,7 @@ from spavision.model.materials.library import find_material
 from spavision.results import sha256
 from spavision.tip_path import FloatArray, TipPath
 
-from .parameters import MODEL_SECTIONS, Value
+from .parameters import MODEL_SECTIONS, OF_THE_PHOTOS, Value
 
 STATUSES = ("ok", "stopped", "failed")
 """``stopped``: the ramp ended before its last pressure; ``failed``: there is no result at all."""
@@ -29,6 +29,23 @@ _MATERIALS = (
     ("actuator", "strip_b_material"),
     ("composite", "matrix_material"),
 )
+
+
+def model_description(experiment: Experiment) -> dict[str, Any]:
+    """Return everything of an experiment that a model run depends on but the pressures, fit for JSON.
+
+    Raises
+    ------
+    InputError
+        If a material is unknown.
+    """
+    sections = {name: getattr(experiment, name).model_dump() for name in MODEL_SECTIONS}
+    for name in OF_THE_PHOTOS:
+        del sections["actuator"][name]
+    laws = {key: repr(find_material(sections[section][key])) for section, key in _MATERIALS}
+    # The coupon's test data, where the experiment names any.
+    curve = experiment.composite.curve
+    return {**sections, "materials": laws, "curve": {"sha256": sha256(Path(curve)) if curve else None}}
 
 
 @cache
@@ -73,15 +90,9 @@ class Case:
         InputError
             If a material is unknown.
         """
-        sections = {name: getattr(self.experiment, name).model_dump() for name in MODEL_SECTIONS}
-        laws = {key: repr(find_material(sections[section][key])) for section, key in _MATERIALS}
-        # The coupon's test data, where the experiment names any.
-        curve = sections["composite"].get("curve")
         return {
             "model": self.model,
-            **sections,
-            "materials": laws,
-            "curve": sha256(Path(curve)) if curve else None,
+            "description": model_description(self.experiment),
             "pressures_kPa": list(self.pressures_kPa),
             "version": self.version,
         }

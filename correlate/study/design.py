@@ -251,7 +251,7 @@ def _scatter(plan: Plan, best: Candidate, run: RunCases) -> list[CaseResult]:
     chosen = _values(best.crimp_ratio, best.strip)
     # What the strip is made of, and that there is none, is chosen and does not scatter.
     fixed = {"strip_b_material", *(() if best.strip.material else ("strip_b_mm",))}
-    suspects = tuple(one for one in plan.suspects if one.is_input and one.name not in fixed)
+    suspects = tuple(one for one in plan.inputs if one.name not in fixed)
     if not suspects:
         return []
     points = draw_shares(len(suspects), plan.n_cases, sampling=plan.sampling, seed=plan.seed)

@@ -128,6 +128,38 @@ def explain_alone(
     return Explanation(values[best], float(rmse[best]), before)
 
 
+def explain_forms(
+    target: Target, forms: tuple[Suspect, ...], changes_mm: FloatArray
+) -> dict[str, Explanation]:
+    """Find how near to the measurement another form of the model brings it, from runs of each option.
+
+    An option whose run does not reach every reading explains nothing.
+
+    Parameters
+    ----------
+    target : Target
+    forms : tuple of Suspect
+    changes_mm : array, shape (n_options, 2, n_pressures)
+        From the nominal path, the options of one form after those of another.
+
+    Returns
+    -------
+    dict of str to Explanation
+        By the name of the form.
+    """
+    rmse = target.rmse_mm(changes_mm, np.ones(len(changes_mm)))
+    is_lacking = np.isnan(changes_mm) & np.isfinite(target.measured_mm)
+    left = iter(np.where(is_lacking.any(axis=(1, 2)), np.inf, rmse).tolist())
+    found, before = {}, _nominal_rmse(target)
+    for form in forms:
+        nearest, remaining = min(((option, next(left)) for option in form.options), key=lambda one: one[1])
+        is_better = remaining < before
+        found[form.name] = Explanation(
+            {form.name: nearest if is_better else form.nominal}, min(remaining, before), before
+        )
+    return found
+
+
 def explain_together(
     emulator: Emulator, target: Target, *, nominal: FloatArray, seed: int
 ) -> tuple[Explanation, FloatArray]:

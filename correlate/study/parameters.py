@@ -22,7 +22,8 @@ MEASUREMENT_KEYS = {"standoff_mm": "camera", "distance_mm": "camera", "scale": "
 FORM_KEYS = ("law",)
 """Keys that choose the form of the model, which a discrepancy may accuse but which has no scatter."""
 
-_OF_THE_PHOTOS = ("first_bend",)
+OF_THE_PHOTOS = ("first_bend",)
+"""Keys of these sections that say something of the photographs alone."""
 
 
 def parameter_sections() -> dict[str, str]:
@@ -31,7 +32,7 @@ def parameter_sections() -> dict[str, str]:
     found: dict[str, str] = {}
     for section in MODEL_SECTIONS:
         annotation: Any = fields[section].annotation
-        found |= {key: section for key in annotation.model_fields if key not in _OF_THE_PHOTOS}
+        found |= {key: section for key in annotation.model_fields if key not in OF_THE_PHOTOS}
     return found | MEASUREMENT_KEYS
 
 

@@ -55,9 +55,14 @@ class Plan:
     seed: int
 
     @property
-    def of_the_model(self) -> tuple[Suspect, ...]:
-        """Suspects that move the model."""
-        return tuple(one for one in self.suspects if not one.moves_the_measurement)
+    def inputs(self) -> tuple[Suspect, ...]:
+        """Suspects that are inputs of the model: what an emulator learns, and what scatters."""
+        return tuple(one for one in self.suspects if one.is_input)
+
+    @property
+    def forms(self) -> tuple[Suspect, ...]:
+        """Suspects that choose the form of the model, which is run for each option as it is."""
+        return tuple(one for one in self.suspects if one.is_form)
 
 
 def n_fitted(n_cases: int) -> int:
@@ -81,7 +86,7 @@ def full_runs(plan: Plan, held_out: FloatArray, run: RunCases) -> list[CaseResul
     """Run the full model at the nominal values and at the first held-out points, where any is asked."""
     if plan.n_full == 0:
         return []
-    return run([{}, *values_at(plan.of_the_model, held_out[: plan.n_full])], model="full")
+    return run([{}, *values_at(plan.inputs, held_out[: plan.n_full])], model="full")
 
 
 def full_model_error(

@@ -170,7 +170,7 @@ def update(plan: Plan, measured: list[Measured], run: RunCases, *, steps: int) -
     InputError
         If the nominal case fails, too few cases succeed, or the path and the study share no pressure.
     """
-    suspects, seed = plan.of_the_model, plan.seed
+    suspects, seed = plan.inputs, plan.seed
     fitted_path = measured[0]
     points = draw_shares(len(suspects), plan.n_cases, sampling=plan.sampling, seed=seed)
     nominal, *results = run([{}, *values_at(suspects, points)])

@@ -66,7 +66,7 @@ def correlate(
     if study is not None:
         from spavision.workflow.study_results import read_study_results
 
-        studied = read_study_results(study, crimp_ratio=source.experiment.actuator.crimp_ratio)
+        studied = read_study_results(study, source.experiment)
     side = take_measurement(source, results=results, quiet=given["quiet"])
     comparison = compare_with_model(side, quiet=given["quiet"], study=studied)
     reports = write_comparison(results, comparison, formats=tuple(dict.fromkeys(formats)))

@@ -130,6 +130,7 @@ def compare_sides(
     first_bend = side.source.experiment.actuator.first_bend
     simulation = _at_readings(simulation, side.source.experiment.gauge)
     discrepancy = compare(in_bending_axes(side.path, first_bend=first_bend), simulation.tip_path)
+    study = None if study is None else study.for_path(discrepancy.measured)
     modelled = discrepancy.modelled
     mesh_mm = numerical_uncertainty_mm(simulation.settings.mesh_level, modelled.ux_mm, modelled.uy_mm)
     inputs_mm = (None, None) if study is None else study.inputs_mm(discrepancy.pressure_kPa)

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from spavision.correlate.study.agreement import first_difference, same_path
+from spavision.correlate.study.case import model_description
 from spavision.correlate.study.case_files import CaseFolder
 from spavision.errors import InputError
+from spavision.experiment import Experiment
 from spavision.tables import numbers, read_columns
-from spavision.tip_path import FloatArray
+from spavision.tip_path import FloatArray, TipPath
 
 if TYPE_CHECKING:
     from spavision.correlate.report import Picture
@@ -48,6 +52,8 @@ class StudyResults:
         The attribution in words.
     chart : bytes or None
         PNG of what each suspect can explain.
+    measured : mapping
+        The path that the attribution explains: its file's name and its readings.
     """
 
     folder: Path
@@ -57,6 +63,17 @@ class StudyResults:
     attribution: tuple[dict[str, str], ...] = ()
     findings: tuple[str, ...] = ()
     chart: bytes | None = None
+    measured: Mapping[str, Any] = field(default_factory=dict)
+
+    def for_path(self, measured: TipPath) -> StudyResults:
+        """Return what the study says of a measured path, in the model's axes: an attribution of that alone."""
+        if not self.attribution or same_path(self.measured, measured):
+            return self
+        note = (
+            f"The attribution of the study is left out: it explains another measured path "
+            f"({self.measured.get('file', 'unknown')}); run spavision study attribute with this one."
+        )
+        return replace(self, notes=(*self.notes, note), attribution=(), findings=(), chart=None)
 
     def inputs_mm(self, pressure_kPa: FloatArray) -> FloatArray:
         """Return u_input of x and y at other pressures, shape (2, n).
@@ -88,49 +105,78 @@ class StudyResults:
         return None if self.chart is None else Picture(self.chart, "image/png", caption)
 
 
-def read_study_results(folder: Path, *, crimp_ratio: float | None) -> StudyResults:
+def read_study_results(folder: Path, experiment: Experiment) -> StudyResults:
     """Read what ``spavision study`` has left in a folder.
+
+    An attribution of another actuator or model than the tolerance study's is left out, and told.
 
     Parameters
     ----------
     folder : Path
-    crimp_ratio : float or None
+    experiment : Experiment
         Of the comparison.
 
     Raises
     ------
     InputError
-        If the folder holds no tolerance study, belongs to another version, or to another crimp ratio.
+        If the folder holds no tolerance study, is of another version, or of another actuator or model.
     """
     if not (folder / BAND).is_file():
         raise InputError(
             f"--study {folder}: holds no {BAND}; run spavision study tolerance STUDY.toml -o {folder} first"
         )
     CaseFolder(folder)
-    _refuse_other_crimp(folder, crimp_ratio)
+    description = model_description(experiment)
+    record = _record((folder / BAND).parent)
+    difference = first_difference(record.get("description", {}), description)
+    if difference is not None:
+        raise InputError(f"--study {folder}: {difference}; name a study of the same actuator and model")
     columns = read_columns(folder / BAND)
     table = {
         name: numbers(columns, name, folder / BAND, allow_empty=True)
         for name in ("pressure_kPa", "u_input_ux_mm", "u_input_uy_mm", "n_reached", "n_cases")
     }
-    attribution: tuple[dict[str, str], ...] = ()
-    if (folder / _ATTRIBUTION).is_file():
-        found = read_columns(folder / _ATTRIBUTION)
-        attribution = tuple(dict(zip(found, row, strict=True)) for row in zip(*found.values(), strict=True))
-    return StudyResults(
+    found = StudyResults(
         folder=folder,
         pressure_kPa=table["pressure_kPa"],
         u_input_mm=np.array([table["u_input_ux_mm"], table["u_input_uy_mm"]]),
-        notes=_notes(table),
-        attribution=attribution,
-        findings=tuple(_record(folder / "attribute").get("findings", ())),
-        chart=(folder / _CHART).read_bytes() if (folder / _CHART).is_file() else None,
+        notes=_notes(table, record),
+    )
+    return _with_attribution(found, description)
+
+
+def _with_attribution(found: StudyResults, description: dict[str, Any]) -> StudyResults:
+    """Return the results with the attribution of the same folder, where there is one that belongs to them."""
+    file = found.folder / _ATTRIBUTION
+    if not file.is_file():
+        return found
+    record = _record(file.parent)
+    difference = first_difference(record.get("description", {}), description)
+    if difference is not None:
+        return replace(
+            found, notes=(*found.notes, f"The attribution of the study is left out: {difference}.")
+        )
+    columns, chart = read_columns(file), found.folder / _CHART
+    return replace(
+        found,
+        attribution=tuple(
+            dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)
+        ),
+        findings=tuple(record.get("findings", ())),
+        chart=chart.read_bytes() if chart.is_file() else None,
+        measured=record.get("measured", {}),
     )
 
 
-def _notes(table: dict[str, FloatArray]) -> tuple[str, ...]:
+def _notes(table: dict[str, FloatArray], record: dict[str, Any]) -> tuple[str, ...]:
     highest = table["pressure_kPa"].max()
-    notes = [f"u_input is known up to {highest:g} kPa, the highest pressure of the study; beyond, it is 0."]
+    model = record.get("study", {}).get("study", {}).get("model", "reduced")
+    notes = [
+        f"u_input is the scatter of {table['n_cases'][0]:.0f} cases of the {model} model, known up to "
+        f"{highest:g} kPa, the highest pressure of the study; beyond, it is 0."
+    ]
+    if record.get("remark"):
+        notes.append(f"The study of u_input is {record['remark']}.")
     lacking = table["n_reached"] < table["n_cases"]
     if lacking.any():
         first = int(np.flatnonzero(lacking)[0])
@@ -139,15 +185,6 @@ def _notes(table: dict[str, FloatArray]) -> tuple[str, ...]:
             "u_input is a lower bound there."
         )
     return tuple(notes)
-
-
-def _refuse_other_crimp(folder: Path, crimp_ratio: float | None) -> None:
-    theirs = _record((folder / BAND).parent).get("experiment", {}).get("actuator", {}).get("crimp_ratio")
-    if theirs is not None and crimp_ratio is not None and abs(theirs - crimp_ratio) > 1e-9:
-        raise InputError(
-            f"--study {folder}: is of crimp ratio {theirs:g}, the comparison of {crimp_ratio:g}; "
-            "name a study of the same actuator"
-        )
 
 
 def _record(folder: Path) -> dict[str, Any]:

@@ -5,12 +5,15 @@ from __future__ import annotations
 import csv
 import json
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from spavision.cli.studies.starter import STARTER
 from spavision.correlate.study.study_file import StudyFile
+from spavision.experiment import Experiment
+from spavision.tip_path import TipPath
 from spavision.workflow.study_results import read_study_results
 
 STUDY = """
@@ -33,13 +36,18 @@ parameters = ["body_stiffness"]
 steps = 200
 """
 
+MEASURED = ([0, 5, 10], [0, 2.3, 5.2], [0, 0.9, 1.8], [0.05] * 3, [0.05] * 3)
+"""Pressure, x, y and their uncertainties."""
+
 
 @pytest.fixture
 def study_file(tmp_path):
     (tmp_path / "study.toml").write_text(STUDY, encoding="utf-8")
-    (tmp_path / "measured.csv").write_text(
-        "pressure_kPa,ux_mm,uy_mm,sigma_ux_mm,sigma_uy_mm\n0,0,0,.05,.05\n5,2.3,.9,.05,.05\n10,5.2,1.8,.05,.05\n"
-    )
+    rows = [
+        "pressure_kPa,ux_mm,uy_mm,sigma_ux_mm,sigma_uy_mm",
+        *(",".join(map(str, row)) for row in zip(*MEASURED, strict=True)),
+    ]
+    (tmp_path / "measured.csv").write_text("\n".join(rows) + "\n")
     return tmp_path / "study.toml"
 
 
@@ -80,7 +88,9 @@ def test_tolerance_and_attribution_share_a_folder_that_correlate_reads(spavision
     assert float(rows["body_stiffness"]["explained"]) > 0.3
     assert float(rows["standoff_mm"]["explained"]) < 0.05
     assert len(table(tmp_path / "out/tolerance/cases.csv")) == 14
-    known = read_study_results(tmp_path / "out", crimp_ratio=0.2)
+    known = read_study_results(
+        tmp_path / "out", Experiment().with_options({"actuator": {"crimp_ratio": 0.2}})
+    )
     assert known.inputs_mm(np.array([10.0]))[0] == pytest.approx([band[1]["u_input_ux_mm"]], rel=1e-6)
     assert known.inputs_mm(np.array([5.0, 99.0]))[0].tolist() == pytest.approx(
         [0.5 * band[1]["u_input_ux_mm"], 0.0], rel=1e-6
@@ -90,7 +100,12 @@ def test_tolerance_and_attribution_share_a_folder_that_correlate_reads(spavision
     other = spavision(
         "correlate", "--measured", measured, "--crimp", "0.3", "--study", out, "-o", str(tmp_path / "no")
     )  # fmt: skip
-    assert other.is_one_sentence_about("is of crimp ratio 0.2, the comparison of 0.3")
+    assert other.is_one_sentence_about("its [actuator] crimp_ratio is 0.2, the comparison's 0.3")
+    explained = TipPath(*(np.array(column) for column in MEASURED))
+    assert known.for_path(explained) is known
+    foreign = known.for_path(replace(explained, ux_mm=1.1 * explained.ux_mm))
+    assert foreign.attribution == foreign.findings == ()
+    assert "explains another measured path (measured.csv)" in foreign.notes[-1]
 
 
 def test_update_finds_the_softer_body_and_checks_elsewhere(spavision, study_file, tmp_path):

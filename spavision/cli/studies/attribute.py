@@ -15,6 +15,8 @@ from .setup import Setup, prepare, study_options
 if TYPE_CHECKING:
     from spavision.correlate.study.attribution import Attribution
 
+    from .measured import MeasuredPath
+
 
 @click.command()
 @click.argument("file", type=click.Path(path_type=Path))
@@ -41,13 +43,13 @@ def attribute(file: Path, measured: Path | None, full_runs: int, **given: Any) -
     setup = prepare("attribute", file, given)
     target = measured_paths(setup, measured)[0]
     found = _attribution(setup, target, full_runs)
-    _write(setup, found)
+    _write(setup, found, target)
     setup.report(
         {"attribution": records(found.table()), "findings": found.sentences()}, lambda: _print(found)
     )
 
 
-def _attribution(setup: Setup, target: Any, full_runs: int) -> Attribution:
+def _attribution(setup: Setup, target: MeasuredPath, full_runs: int) -> Attribution:
     from spavision.correlate.study.attribution import attribute
     from spavision.model.reduced.one_thread import one_thread
 
@@ -59,7 +61,7 @@ def _attribution(setup: Setup, target: Any, full_runs: int) -> Attribution:
     return found
 
 
-def _write(setup: Setup, found: Attribution) -> None:
+def _write(setup: Setup, found: Attribution, target: MeasuredPath) -> None:
     from spavision.correlate.study.attribution_figures import attribution_figure, sobol_figure
     from spavision.correlate.study.sensitivity import local_table
 
@@ -72,7 +74,13 @@ def _write(setup: Setup, found: Attribution) -> None:
         "sobol": sobol_figure(found.sobol),
     }
     setup.write_figures(figures)
-    results.write_record({**setup.record(), "findings": found.sentences()})
+    results.write_record(
+        {
+            **setup.record(crimp_ratio=target.crimp_ratio),
+            "findings": found.sentences(),
+            "measured": target.record(),
+        }
+    )
 
 
 def _print(found: Attribution) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from spavision.correlate.discrepancy import in_bending_axes
 from spavision.errors import InputError
@@ -28,6 +29,12 @@ class MeasuredPath:
     path: TipPath
     crimp_ratio: float | None
     file: Path
+
+    def record(self) -> dict[str, Any]:
+        """Return what ``run.json`` keeps of it: the file's name and the readings."""
+        readings = self.path.readings()
+        columns = ("pressure_kPa", "ux_mm", "uy_mm")
+        return {"file": self.file.name, **{name: getattr(readings, name).tolist() for name in columns}}
 
 
 def measured_paths(setup: Setup, given: Path | None) -> list[MeasuredPath]:

@@ -195,12 +195,16 @@ class Setup:
             show()
         output.print_lines([f"Results: {self.results.path}"])
 
-    def record(self) -> dict[str, Any]:
-        """Return what ``run.json`` keeps of the study."""
+    def record(self, *, crimp_ratio: float | None = None) -> dict[str, Any]:
+        """Return what ``run.json`` keeps of the study, at another crimp ratio where one is named."""
+        from spavision.correlate.study.case import model_description
+
+        experiment = self.case({}, crimp_ratio=crimp_ratio).experiment
         return {
             "command": f"study {self.command}",
             "study": self.study.model_dump(),
-            "experiment": self.nominal.model_dump(),
+            "experiment": experiment.model_dump(),
+            "description": model_description(experiment),
         }
 
 

@@ -41,7 +41,7 @@ def tolerance(file: Path, **given: Any) -> None:
     refuse_failed(nominal)
     setup.write_cases(cases[1:], results)
     found = band(nominal.path(setup.pressures_kPa), results)
-    _write(setup, found)
+    _write(setup, found, remark=nominal.reason)
     setup.report({"band": records(found.table())}, lambda: _print(found))
 
 
@@ -63,13 +63,13 @@ def _inputs(setup: Setup) -> tuple[Suspect, ...]:
     return inputs
 
 
-def _write(setup: Setup, found: Band) -> None:
+def _write(setup: Setup, found: Band, *, remark: str) -> None:
     from spavision.correlate.study.figures import band_figure
 
     setup.results.write_text(BAND_NAME, csv_text(found.table()))
     figure = band_figure(found, title=f"{found.n_cases} cases, {setup.study.study.model} model")
     setup.write_figures({"tolerance": figure})
-    setup.results.write_record(setup.record())
+    setup.results.write_record({**setup.record(), "remark": remark})
 
 
 def _print(found: Band) -> None:

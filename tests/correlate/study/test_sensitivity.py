@@ -10,7 +10,7 @@ from scipy import stats
 
 from spavision.correlate.study.band import band
 from spavision.correlate.study.case import CaseResult
-from spavision.correlate.study.explanation import Target, explain_alone, reading_factor
+from spavision.correlate.study.explanation import Target, explain_alone, explain_forms, reading_factor
 from spavision.correlate.study.sampling import draw_shares
 from spavision.correlate.study.sensitivity import (
     LocalSensitivity,
@@ -82,6 +82,20 @@ def test_suspect_explains_what_lies_within_its_interval() -> None:
         found = explain_alone(model, target, slope, nominal=np.array([1.0 / high]))  # type: ignore[arg-type]
         assert found.rmse_mm == pytest.approx(left, abs=0.05)
         assert found.nominal_rmse_mm == pytest.approx(2.0)
+
+
+def test_form_of_the_model_is_judged_by_its_runs() -> None:
+    """Measured 3, nominal 1 mm: the option 1.5 mm further leaves 0.5; one that stops explains nothing."""
+    law = Suspect("law", "composite", "a", "", options=("a", "b", "c"))
+    target = Target(np.array([[3.0, 3.0], [0.0, 0.0]]), np.array([[1.0, 1.0], [0.0, 0.0]]), Experiment())
+    stopped = [2.0, np.nan]
+    changes = np.array([[ux, np.zeros(2)] for ux in (np.zeros(2), np.full(2, 1.5), stopped)])
+    found = explain_forms(target, (law,), changes)["law"]
+    assert found.values == {"law": "b"}
+    assert found.explained == pytest.approx(0.75)
+    worse = explain_forms(target, (law,), -changes)["law"]
+    assert worse.values == {"law": "a"}
+    assert worse.explained == 0.0
 
 
 def test_sobol_sequence_is_the_same_again_and_even() -> None:

@@ -21,7 +21,9 @@ _WAITING_PER_THREAD = 2
 def run_on_dask(evaluate: Evaluate, cases: Sequence[object], *, address: str) -> Iterator[Finished]:
     """Run cases on the workers of a Dask scheduler.
 
-    Workers may come and go; a case whose worker dies is run again elsewhere, `ATTEMPTS` times in all.
+    Workers may come and go; a case whose worker dies is run again elsewhere. The scheduler gives a case up
+    after some deaths (its ``allowed-failures``), also one that only waited on the workers that another case
+    killed; so it is handed in `ATTEMPTS` times in all.
 
     Parameters
     ----------

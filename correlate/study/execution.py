@@ -82,5 +82,6 @@ def run_cases(evaluate: Evaluate, cases: Sequence[object], machine: Machine) -> 
 def lost(index: int) -> Finished:
     """Return what becomes of a case under which every worker died."""
     return Finished(
-        index, reason=f"its worker died {ATTEMPTS} times (killed, or out of memory); run the study again"
+        index,
+        reason=f"its worker died at each of {ATTEMPTS} attempts (killed, or out of memory); run the study again",
     )

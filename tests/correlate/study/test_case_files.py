@@ -54,7 +54,7 @@ def test_case_that_kills_every_worker_is_given_up_and_tried_again_later(
         folder, cases, machine=TWO_WORKERS, advance=silent, evaluate=stand_in.killed_always
     )
     assert [result.status for result in given_up] == ["ok", "failed", "ok"]
-    assert f"died {ATTEMPTS} times" in given_up[1].reason
+    assert f"died at each of {ATTEMPTS} attempts" in given_up[1].reason
     again = finished_cases(folder, cases, machine=HERE, advance=silent, evaluate=stand_in.linear)
     assert [result.status for result in again] == ["ok", "ok", "ok"]
     assert evaluated(tmp_path)[2:] == ["3.000000"]

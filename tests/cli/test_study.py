@@ -170,3 +170,18 @@ def test_each_defect_of_a_study_file_is_told_in_one_sentence(spavision, tmp_path
     (tmp_path / "study.toml").write_text(text, encoding="utf-8")
     done = spavision("study", "tolerance", str(tmp_path / "study.toml"), "-o", str(tmp_path / "out"))
     assert done.is_one_sentence_about(sentence)
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (("--vary", "strip_b_mm=1,2"), "the crimp ratio is not known; give --crimp 0.2"),
+        (("--crimp", "0.2", "--vary", "standoff_mm=10,20"), "standoff_mm moves the measured path"),
+        (("--crimp", "0.2", "--vary", "side_wal_mm=2"), "did you mean side_wall_mm"),
+        (("--crimp", "0.2", "--vary", "law=ogdn"), "[composite] law is 'ogdn'"),
+        (("--crimp", "0.2", "--vary", "strip_b_mm=3:1:0.5"), "expected from:to:step"),
+        (("--crimp", "0.2"), "nothing varies"),
+    ],
+)
+def test_sweep_that_makes_no_sense_is_told_in_one_sentence(spavision, options, sentence):
+    assert spavision("study", "sweep", *options).is_one_sentence_about(sentence)

@@ -137,13 +137,17 @@ class Setup:
         Raises
         ------
         InputError
-            If a value is out of its range.
+            If a value is out of its range, or the crimp ratio is not known.
         """
         from spavision.correlate.study.case import Case
         from spavision.correlate.study.parameters import laid_over
 
         ratio = {} if crimp_ratio is None else {"crimp_ratio": crimp_ratio}
         experiment = laid_over(self.nominal, {**ratio, **values})
+        if experiment.actuator.crimp_ratio is None:
+            raise InputError(
+                f"{self.source}: the crimp ratio is not known; give --crimp 0.2, or crimp_ratio in [study]"
+            )
         return Case(model or self.study.study.model, experiment, self.pressures_kPa, values)
 
     def run(self, cases: Sequence[Case], *, title: str) -> list[CaseResult]:
@@ -199,7 +203,7 @@ class Setup:
         """Return what ``run.json`` keeps of the study, at another crimp ratio where one is named."""
         from spavision.correlate.study.case import model_description
 
-        experiment = self.case({}, crimp_ratio=crimp_ratio).experiment
+        experiment = self.nominal.with_options({"actuator": {"crimp_ratio": crimp_ratio}})
         return {
             "command": f"study {self.command}",
             "study": self.study.model_dump(),

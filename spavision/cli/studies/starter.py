@@ -7,8 +7,8 @@ import click
 STARTER = """\
 # A study of the article's suspects. Run it with
 #   spavision study tolerance study.toml
-# Any number under [actuator], [composite] of the experiment file, and standoff_mm, distance_mm, scale can be
-# a suspect. Its nominal value is the experiment file's, or the default.
+# Any number or material under [actuator], [composite], [gauge] of the experiment file can be a suspect, and
+# law, standoff_mm, distance_mm, scale. Its nominal value is the experiment file's, or the default.
 
 [study]
 # experiment = "experiment.toml"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -36,7 +37,7 @@ def sweep(file: Path | None, vary: tuple[str, ...], **given: Any) -> None:
     Writes cases.csv with the mode change of each case, paths.csv, a figure.
     """  # noqa: D301
     from spavision.correlate.study.case_table import case_table
-    from spavision.correlate.study.parameters import nominal_value
+    from spavision.correlate.study.parameters import MEASUREMENT_KEYS, nominal_value
     from spavision.correlate.study.sampling import grid_values
 
     setup = prepare("sweep", file, given)
@@ -45,6 +46,8 @@ def sweep(file: Path | None, vary: tuple[str, ...], **given: Any) -> None:
         raise InputError("sweep: nothing varies; give --vary strip_b_mm=1,2,3, or a [grid] in the study file")
     for name in grid:
         nominal_value(name, setup.nominal, where=setup.source)
+        if name in MEASUREMENT_KEYS:
+            raise InputError(f"sweep: {name} moves the measured path, not the model; leave it out")
     cases = [setup.case(values) for values in grid_values(grid)]
     results = setup.run(cases, title="sweep")
     setup.write_cases(cases, results)
@@ -79,7 +82,7 @@ def _write_paths(setup: Setup, cases: Any, results: Any) -> None:
 
 
 def _cell(value: Any) -> str:
-    return value if isinstance(value, str) else f"{value:g}"
+    return value if isinstance(value, str) else f"{value:g}" if math.isfinite(value) else "–"
 
 
 def _parsed(vary: tuple[str, ...]) -> dict[str, tuple[Value, ...]]:

@@ -90,8 +90,7 @@ def _print(found: Attribution) -> None:
         [
             row["suspect"],
             _cell(row["nominal"]),
-            _cell(row["low"]),
-            _cell(row["high"]),
+            *_interval(row),
             _cell(row["best"]),
             f"{100 * row['explained']:.0f} %",
             number(row["largest_change_ux_mm"], 1),
@@ -99,9 +98,14 @@ def _print(found: Attribution) -> None:
         ]
         for row in found.table().to_dict(orient="records")
     ]
-    header = ["suspect", "nominal", "low", "high", "best", "explains", "Δx end to end, mm", "Sobol total"]
+    header = ["suspect", "nominal", "2.5 %", "97.5 %", "best", "explains", "largest Δx mm", "Sobol"]
     output.print_table("What each suspect can explain of the discrepancy", header, rows)
     output.print_lines(found.sentences())
+
+
+def _interval(row: dict[Any, Any]) -> tuple[str, str]:
+    """Return the ends of a number's interval; what is chosen has none."""
+    return ("choice", "") if isinstance(row["low"], str) else (_cell(row["low"]), _cell(row["high"]))
 
 
 def _cell(value: Any) -> str:

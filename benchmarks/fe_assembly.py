@@ -23,6 +23,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from skfem import Basis, BilinearForm, ElementHex2, ElementVector, LinearForm, MeshHex
 
+from spavision.model.element_integrals import force_integrals
 from spavision.model.equilibrium import Equilibrium, Load, State
 from spavision.model.hex_mesh import TensorGrid, structured_mesh
 from spavision.model.materials.ogden import Ogden
@@ -101,7 +102,7 @@ def own_assembly(state: State, body: Equilibrium) -> Callable[[], csr_array]:
     assert balance is not None
 
     def assemble() -> csr_array:
-        body._integrate(balance.kinematics, balance.response.stress)
+        force_integrals(body.geometry, balance.kinematics, balance.response.stress)
         return body.tangent(state, load, balance)
 
     return assemble

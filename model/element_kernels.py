@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit, prange
 
-from .elements import FloatArray
+from .elements import FloatArray, IndexArray, IntArray
 
 BLOCKS = np.array([[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [0, 2]])
 """Component pairs of the six stored blocks of an element's symmetric tangent."""
@@ -16,7 +16,7 @@ _FAST = {"contract", "reassoc", "nsz", "arcp"}
 
 @njit(cache=True, fastmath=_FAST)
 def _spatial_gradients(F: FloatArray, J: float, gradients: FloatArray, out: FloatArray) -> None:
-    """Turn gradients in undeformed coordinates into spatial ones, (3, n_nodes) to (3, n_nodes)."""
+    """Turn gradients in undeformed coordinates, (3, n_nodes), into spatial ones, (3, n_nodes or more)."""
     inverse = np.empty((3, 3))
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
@@ -118,6 +118,53 @@ def _product_with_moduli(
             out[r, b] = volume * (a0 * g[0, b] + a1 * g[1, b] + a2 * g[2, b])
 
 
+@njit(cache=True, fastmath=_FAST)
+def _element_tangent(
+    gradients: FloatArray,
+    volumes: FloatArray,
+    modes: FloatArray,
+    F: FloatArray,
+    J: FloatArray,
+    stress: FloatArray,
+    moduli: FloatArray,
+    pressure: FloatArray,
+    bulk_modulus: float,
+    pressure_operator: FloatArray,
+    g: FloatArray,
+    tiles: FloatArray,
+) -> None:
+    """Integrate one element's tangent; see `element_tangents`.
+
+    `g`, (n_points, 3, n_padded), is scratch; both it and `tiles`, (6, n_nodes, n_padded), have rows filled
+    up to whole vectors of the processor, so that the loops over them have no remainder.
+    """
+    n_points, _, n_nodes = gradients.shape
+    n_padded = tiles.shape[2]
+    t = np.empty((3, n_padded))
+    p = np.zeros(n_points)
+    operator = np.zeros(n_padded)
+    for q in range(n_points):
+        _spatial_gradients(F[q], J[q], gradients[q], g[q])
+        for m in range(len(pressure)):
+            p[q] += J[q] * modes[q, m] * pressure[m]
+    for block in range(6):
+        i, j = BLOCKS[block]
+        tile = tiles[block]
+        tile[:] = 0.0
+        for q in range(n_points):
+            _product_with_moduli(i, j, moduli[q], stress[q], p[q], volumes[q], g[q], t)
+            for a in range(n_nodes):
+                g0, g1, g2 = g[q, 0, a], g[q, 1, a], g[q, 2, a]
+                for b in range(n_padded):
+                    tile[a, b] += g0 * t[0, b] + g1 * t[1, b] + g2 * t[2, b]
+        for m in range(len(pressure)):
+            operator[:n_nodes] = pressure_operator[m, j]
+            for a in range(n_nodes):
+                factor = bulk_modulus * pressure_operator[m, i, a]
+                for b in range(n_padded):
+                    tile[a, b] += factor * operator[b]
+
+
 @njit(cache=True, parallel=True, fastmath=_FAST)
 def element_tangents(
     gradients: FloatArray,
@@ -146,32 +193,89 @@ def element_tangents(
         Written: the blocks ``BLOCKS`` of the symmetric tangent, rows by the first component's nodes.
     """
     n_elements, n_points, _, n_nodes = gradients.shape
-    n_modes = modes.shape[2]
-    # Rows filled up with zeros to whole vectors of the processor: the loops over b have no remainder.
     n_padded = (n_nodes + 7) // 8 * 8
     for e in prange(n_elements):
         g = np.zeros((n_points, 3, n_padded))
-        operator = np.zeros((n_modes, 3, n_padded))
-        t = np.empty((3, n_padded))
-        tile = np.empty((n_nodes, n_padded))
-        p = np.zeros(n_points)
-        for q in range(n_points):
-            _spatial_gradients(F[e, q], J[e, q], gradients[e, q], g[q])
-            for m in range(n_modes):
-                p[q] += J[e, q] * modes[e, q, m] * pressure[e, m]
-        operator[:, :, :n_nodes] = pressure_operator[e]
-        for block in range(6):
-            i, j = BLOCKS[block]
-            tile[:] = 0.0
-            for q in range(n_points):
-                _product_with_moduli(i, j, moduli[e, q], stress[e, q], p[q], volumes[e, q], g[q], t)
-                for a in range(n_nodes):
-                    g0, g1, g2 = g[q, 0, a], g[q, 1, a], g[q, 2, a]
-                    for b in range(n_padded):
-                        tile[a, b] += g0 * t[0, b] + g1 * t[1, b] + g2 * t[2, b]
-            for m in range(n_modes):
-                for a in range(n_nodes):
-                    factor = bulk_modulus[e] * operator[m, i, a]
-                    for b in range(n_padded):
-                        tile[a, b] += factor * operator[m, j, b]
-            tangents[e, block] = tile[:, :n_nodes]
+        tiles = np.empty((6, n_nodes, n_padded))
+        _element_tangent(
+            gradients[e],
+            volumes[e],
+            modes[e],
+            F[e],
+            J[e],
+            stress[e],
+            moduli[e],
+            pressure[e],
+            bulk_modulus[e],
+            pressure_operator[e],
+            g,
+            tiles,
+        )
+        tangents[e] = tiles[:, :, :n_nodes]
+
+
+@njit(cache=True, parallel=True, fastmath=_FAST)
+def add_element_tangents(
+    gradients: FloatArray,
+    volumes: FloatArray,
+    modes: FloatArray,
+    F: FloatArray,
+    J: FloatArray,
+    stress: FloatArray,
+    moduli: FloatArray,
+    pressure: FloatArray,
+    bulk_modulus: FloatArray,
+    pressure_operator: FloatArray,
+    slab_order: IntArray,
+    slab_starts: IntArray,
+    places: IndexArray,
+    data: FloatArray,
+) -> None:
+    """Integrate the element tangents and add them to the entries of the assembled one.
+
+    Threads take whole slabs, first those of even number, then the others: slabs two apart share no entry,
+    and the order of summation does not depend on the number of threads.
+
+    Parameters
+    ----------
+    gradients, volumes, modes, F, J, stress, moduli, pressure, bulk_modulus, pressure_operator : array
+        As in `element_tangents`.
+    slab_order : array, shape (n_elements,)
+        The elements, slab by slab.
+    slab_starts : array, shape (n_slabs + 1,)
+        Where in it each slab begins.
+    places : array, shape (n_elements, 6, n_nodes, n_nodes)
+        The entry that each of the elements' adds to, −1 for none.
+    data : array, shape (n_entries,)
+        Added to.
+    """
+    _, n_points, _, n_nodes = gradients.shape
+    n_padded = (n_nodes + 7) // 8 * 8
+    n_slabs = len(slab_starts) - 1
+    for parity in range(2):
+        for half in prange((n_slabs + 1 - parity) // 2):
+            slab = 2 * half + parity
+            g = np.zeros((n_points, 3, n_padded))
+            tiles = np.empty((6, n_nodes, n_padded))
+            for position in range(slab_starts[slab], slab_starts[slab + 1]):
+                e = slab_order[position]
+                _element_tangent(
+                    gradients[e],
+                    volumes[e],
+                    modes[e],
+                    F[e],
+                    J[e],
+                    stress[e],
+                    moduli[e],
+                    pressure[e],
+                    bulk_modulus[e],
+                    pressure_operator[e],
+                    g,
+                    tiles,
+                )
+                for block in range(6):
+                    for a in range(n_nodes):
+                        for b in range(n_nodes):
+                            place = places[e, block, a, b]
+                            if place >= 0:
+                                data[place] += tiles[block, a, b]

@@ -13,6 +13,7 @@ from skfem.refdom import RefHex, RefQuad
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+IndexArray = NDArray[np.int32]
 
 _ELEMENTS = {1: (ElementHex1, ElementQuad1), 2: (ElementHex2, ElementQuad2)}
 

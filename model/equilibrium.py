@@ -19,11 +19,11 @@ from .constitutive import (
 )
 from .element_geometry import ElementGeometry, element_geometry
 from .element_integrals import force_integrals, volumetric_energy
-from .element_kernels import element_tangents
+from .element_kernels import add_element_tangents
 from .elements import FloatArray, IntArray, reference_element
 from .hex_mesh import BoolArray, HexMesh
 from .materials.solid import SolidMaterial
-from .sparsity import TangentPattern, tangent_pattern
+from .sparsity import TangentPattern, add_up, slabs, tangent_pattern
 from .state import Load, State, combine
 from .stress_measures import linear_change, pull_back, push_forward
 
@@ -100,6 +100,8 @@ class Equilibrium:
         self.bulk_modulus_MPa = per_element(self.groups, len(mesh.elements), "bulk_modulus_MPa")
         self.is_free = ~is_fixed
         self.pattern: TangentPattern = tangent_pattern(mesh.elements, mesh.cavity_faces, _numbering(is_fixed))
+        centres = mesh.nodes_mm[mesh.elements].mean(axis=1)
+        self._slab_order, self._slab_starts = slabs(mesh.elements, centres)
         self._weight = self._body_force(np.asarray(gravity_direction))
 
     def unloaded(self) -> State:
@@ -140,10 +142,8 @@ class Equilibrium:
         if state.stress is not None:
             stress = np.empty_like(state.stress)
             push_forward(kinematics.F, state.stress, stress)
-        n_elements, n_nodes = self.mesh.elements.shape
-        buffer = np.empty(len(self.pattern.places))
-        n_solid = n_elements * 6 * n_nodes**2
-        element_tangents(
+        data = np.zeros(len(self.pattern.columns))
+        add_element_tangents(
             geometry.gradients,
             geometry.volumes,
             geometry.pressure_modes,
@@ -154,11 +154,14 @@ class Equilibrium:
             state.pressure,
             self.bulk_modulus_MPa,
             balance.pressure_operator,
-            buffer[:n_solid].reshape(n_elements, 6, n_nodes, n_nodes),
+            self._slab_order,
+            self._slab_starts,
+            self.pattern.element_places,
+            data,
         )
-        position = self.mesh.nodes_mm + state.displacement
-        buffer[n_solid:] = (-load.gas_pressure_MPa * self.cavity.hessians(position)).ravel()
-        return self.pattern.assemble(buffer)
+        hessians = self.cavity.hessians(self.mesh.nodes_mm + state.displacement)
+        add_up(self.pattern.face_places.ravel(), (-load.gas_pressure_MPa * hessians).ravel(), data)
+        return self.pattern.matrix(data)
 
     def residual(self, state: State, balance: Balance, tangent_at: Balance) -> FloatArray:
         """Return the forces that a correction has to balance, shape (n_free,).

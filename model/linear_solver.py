@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import sys
 from importlib.util import find_spec
 from typing import Protocol
 
@@ -11,10 +9,8 @@ import numpy as np
 from scipy.sparse import csc_array, csr_array, triu
 from scipy.sparse.linalg import splu
 
-from .elements import FloatArray
-
-_SYMMETRIC_DEFINITE, _SYMMETRIC_INDEFINITE = 2, -2
-_ANALYSE_AND_FACTORISE, _FACTORISE, _SOLVE = 12, 22, 33
+from .elements import FloatArray, IndexArray
+from .mkl_pardiso import SYMMETRIC_DEFINITE, SYMMETRIC_INDEFINITE, Pardiso, PardisoError
 
 
 class SingularTangentError(ArithmeticError):
@@ -55,18 +51,29 @@ class PardisoSolver:
     name = "pardiso"
 
     def __init__(self) -> None:
-        self._definite = _Factoriser(_SYMMETRIC_DEFINITE)
-        self._indefinite = _Factoriser(_SYMMETRIC_INDEFINITE)
-        self._last: _Factoriser | None = None
+        self._definite: Pardiso | None = None
+        self._indefinite: Pardiso | None = None
+        self._last: Pardiso | None = None
 
     def factorise(self, upper: csr_array) -> None:
         """Factorise the symmetric matrix whose upper triangle is given."""
+        self._last = None
+        if self._definite is None:
+            self._definite = Pardiso(SYMMETRIC_DEFINITE, upper)
         try:
             self._definite.factorise(upper)
             self._last = self._definite
-        except SingularTangentError:
+        except PardisoError:
+            self._last = self._factorise_indefinite(upper, self._definite.ordering)
+
+    def _factorise_indefinite(self, upper: csr_array, ordering: IndexArray) -> Pardiso:
+        try:
+            if self._indefinite is None:
+                self._indefinite = Pardiso(SYMMETRIC_INDEFINITE, upper, ordering=ordering)
             self._indefinite.factorise(upper)
-            self._last = self._indefinite
+        except PardisoError as error:
+            raise SingularTangentError(str(error)) from error
+        return self._indefinite
 
     def solve(self, right_hand_side: FloatArray) -> FloatArray:
         """Solve with the last factorisation."""
@@ -77,53 +84,7 @@ class PardisoSolver:
     @property
     def negative_pivots(self) -> int | None:
         """Number of negative eigenvalues of the last matrix."""
-        return 0 if self._last is self._definite else self._indefinite.negative_pivots
-
-
-class _Factoriser:
-    """One kind of factorisation for matrices of one pattern; its memory is given back at the end."""
-
-    def __init__(self, kind: int) -> None:
-        from pypardiso import PyPardisoSolver
-
-        self._pardiso = PyPardisoSolver(mtype=kind)
-        # Unless told, the wrapper looks for MKL through the whole environment, each time anew.
-        os.environ.setdefault("PYPARDISO_MKL_RT", self._pardiso.libmkl._name)
-        # iparm 1: take the values below, not the defaults; 2: METIS ordering; 8: no refinement steps;
-        # 10: pivots below 1e-8 are perturbed; 11, 13: neither scaling nor matching, the tangent being well
-        # scaled; 21: Bunch-Kaufman pivots.
-        for index, value in ((1, 1), (2, 2), (8, 0), (10, 8), (11, 0), (13, 0), (21, 1), (24, 0)):
-            self._pardiso.set_iparm(index, value)
-        self._matrix: csr_array | None = None
-
-    def factorise(self, upper: csr_array) -> None:
-        """Factorise; the first time the ordering is found too."""
-        phase = _ANALYSE_AND_FACTORISE if self._matrix is None else _FACTORISE
-        self._matrix = upper
-        self._call(phase, np.zeros(upper.shape[0]))
-
-    def solve(self, right_hand_side: FloatArray) -> FloatArray:
-        """Solve with the last factors."""
-        return self._call(_SOLVE, right_hand_side)
-
-    @property
-    def negative_pivots(self) -> int:
-        """Number of negative eigenvalues of the last matrix, if it was taken for indefinite."""
-        return int(self._pardiso.get_iparm(23))
-
-    def _call(self, phase: int, right_hand_side: FloatArray) -> FloatArray:
-        from pypardiso.pardiso_wrapper import PyPardisoError
-
-        self._pardiso.set_phase(phase)
-        try:
-            return self._pardiso._call_pardiso(self._matrix, np.ascontiguousarray(right_hand_side))
-        except PyPardisoError as error:
-            raise SingularTangentError(str(error)) from error
-
-    def __del__(self) -> None:
-        # At the interpreter's end the memory goes anyway, and the wrapper's imports are gone.
-        if getattr(self, "_matrix", None) is not None and not sys.is_finalizing():
-            self._pardiso.free_memory(everything=True)
+        return 0 if self._last is None or self._last is self._definite else self._last.negative_pivots
 
 
 class SuperLUSolver:

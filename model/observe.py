@@ -71,24 +71,26 @@ def _locate_all(mesh: HexMesh, positions_mm: FloatArray) -> list[MaterialPoint]:
     corners = mesh.nodes_mm[mesh.elements]
     low, high = corners.min(axis=1), corners.max(axis=1)
     slack = 1e-9 * (high - low).max()
-    points = []
+    owners = []
     for position in positions_mm:
         inside = np.all((position >= low - slack) & (position <= high + slack), axis=1)
         if not inside.any():
             raise ValueError(f"the point {position} lies outside the body")
-        element = int(np.flatnonzero(inside)[0])
-        local = _local_coordinates(mesh, element, position)
-        values, _ = shape_functions(mesh.order, local[None, :])
-        points.append(MaterialPoint(mesh.elements[element], values[0]))
-    return points
+        owners.append(int(inside.argmax()))
+    values = _weights(mesh.order, corners[owners], positions_mm)
+    return [MaterialPoint(mesh.elements[owner], row) for owner, row in zip(owners, values, strict=True)]
 
 
-def _local_coordinates(mesh: HexMesh, element: int, position_mm: FloatArray) -> FloatArray:
-    """Coordinates in the unit cube, by Newton's method: one step for a box, a few where nodes are graded."""
-    corners = mesh.nodes_mm[mesh.elements[element]]
-    local = np.full(3, 0.5)
+def _weights(order: int, corners: FloatArray, positions_mm: FloatArray) -> FloatArray:
+    """Shape functions at points, one in each element, shape (n, n_element_nodes).
+
+    The points' coordinates in the unit cube by Newton's method: one step for a box, a few where nodes are
+    graded.
+    """
+    local = np.full(positions_mm.shape, 0.5)
     for _ in range(_LOCATING_STEPS):
-        values, gradients = shape_functions(mesh.order, local[None, :])
-        jacobian = np.einsum("ai,ja->ij", corners, gradients[0])
-        local = local + np.linalg.solve(jacobian, position_mm - values[0] @ corners)
-    return local
+        values, gradients = shape_functions(order, local)
+        jacobian = np.einsum("nai,nja->nij", corners, gradients)
+        missing = positions_mm - np.einsum("na,nai->ni", values, corners)
+        local = local + np.linalg.solve(jacobian, missing[..., None])[..., 0]
+    return shape_functions(order, local)[0]

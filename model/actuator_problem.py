@@ -11,41 +11,54 @@ from .composite import crimped_composite
 from .equilibrium import Equilibrium
 from .geometry import ActuatorGeometry
 from .materials.library import find_material
+from .materials.material_files import Material
 from .materials.solid import SolidMaterial
 from .materials.stiffness import stiffened
 from .memory import refuse_too_large
 from .simulation import SimulationSettings
 
 
+def region_materials(settings: SimulationSettings) -> dict[str, Material]:
+    """Return the library's material of each region; in the composite, if it is not one law, the matrix.
+
+    Raises
+    ------
+    InputError
+        If a material is not in the library.
+    """
+    return {
+        "composite": settings.composite or find_material(settings.matrix_material),
+        "strip A": find_material(settings.strip_a_material),
+        "body": find_material(settings.body_material),
+        "strip B": find_material(settings.strip_b_material),
+    }
+
+
 def actuator_materials(*, crimp_ratio: float, settings: SimulationSettings) -> dict[str, SolidMaterial]:
-    """Return the material of each region of the actuator.
+    """Return the material of each region of the actuator, as the elements take it.
 
     Raises
     ------
     InputError
         If the crimp ratio or a material name is unusable.
     """
-    solids = {
-        region: _solid(name, stiffness, settings.bulk_to_shear)
-        for region, name, stiffness in (
-            ("composite", settings.matrix_material, settings.matrix_stiffness),
-            ("strip A", settings.strip_a_material, settings.body_stiffness),
-            ("body", settings.body_material, settings.body_stiffness),
-            ("strip B", settings.strip_b_material, settings.strip_b_stiffness),
-        )
+    stiffness = {
+        "composite": settings.matrix_stiffness if settings.composite is None else 1.0,
+        "strip A": settings.body_stiffness,
+        "body": settings.body_stiffness,
+        "strip B": settings.strip_b_stiffness,
     }
-    if settings.composite is not None:
-        solids["composite"] = settings.composite.solid(bulk_to_shear=settings.bulk_to_shear)
-    else:
+    solids = {
+        region: replace(material, law=stiffened(material.law, stiffness[region])).solid(
+            bulk_to_shear=settings.bulk_to_shear
+        )
+        for region, material in region_materials(settings).items()
+    }
+    if settings.composite is None:
         solids["composite"] = crimped_composite(
             solids["composite"], crimp_ratio=crimp_ratio, paper=settings.paper
         )
     return solids
-
-
-def _solid(name: str, stiffness: float, bulk_to_shear: float) -> SolidMaterial:
-    material = find_material(name)
-    return replace(material, law=stiffened(material.law, stiffness)).solid(bulk_to_shear=bulk_to_shear)
 
 
 def actuator_problem(

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from .continuation import RampPlace, Waypoint
 from .elements import FloatArray
 from .journal import Checkpoint
+from .ramp_path import RampPlace, Waypoint
 from .simulation import StepRecord
 from .state import State
 

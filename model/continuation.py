@@ -7,14 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .constitutive import deform
 from .elements import FloatArray
 from .equilibrium import Equilibrium
+from .law_use import laws_are_stable
 from .linear_solver import LinearSolver
 from .newton import NewtonResult, NewtonSettings, NotConvergedError, find_equilibrium
-from .state import Load, State, combine
-
-_NEAR_KPA = 1.0
-"""A limit point foreseen this near to where the ramp stops is taken for the reason."""
+from .ramp_path import RampPlace, Waypoint, extrapolate, limit_point_kPa, waypoint
+from .snap import NoStableStateError, snap
+from .state import Load, State
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,10 @@ class SteppingSettings:
     first_step_kPa, largest_step_kPa, smallest_step_kPa : float
     easy_iterations, hard_iterations : int
         Up to the first the next step grows by half, from the second on it is halved.
+    snap_step_kPa : float
+        Step over a fold, beyond which the next stable state is looked for, see `snap`.
+    largest_snap_steps : int
+        Damped steps allowed for one snap.
     """
 
     first_step_kPa: float = 5.0
@@ -33,6 +38,8 @@ class SteppingSettings:
     smallest_step_kPa: float = 0.02
     easy_iterations: int = 4
     hard_iterations: int = 7
+    snap_step_kPa: float = 0.1
+    largest_snap_steps: int = 120
 
 
 @dataclass(frozen=True)
@@ -45,11 +52,36 @@ class AcceptedStep:
     result : NewtonResult
     place : RampPlace or None
         From where a pressure ramp can go on; None under volume control.
+    released_mJ : float
+        Energy given off where the body snapped to this state; 0 where it moved smoothly.
     """
 
     pressure_kPa: float
     result: NewtonResult
     place: RampPlace | None = None
+    released_mJ: float = 0.0
+
+
+@dataclass(frozen=True)
+class StopPlace:
+    """Where a ramp stopped, to find the cause in.
+
+    Parameters
+    ----------
+    state : State
+        The last equilibrium.
+    node : int or None
+        That moved farthest when a further one was looked for.
+    balloons : bool
+        Whether the enclosed volume then grew without end.
+    limit_kPa : float
+        Pressure of the limit point that the path before foretells; infinite if none.
+    """
+
+    state: State
+    node: int | None = None
+    balloons: bool = False
+    limit_kPa: float = np.inf
 
 
 class RampStoppedError(ArithmeticError):
@@ -60,12 +92,16 @@ class RampStoppedError(ArithmeticError):
     pressure_kPa : float
         The last pressure reached.
     reason : str
+        In the solver's words.
+    place : StopPlace or None
+        None where there is no equilibrium to start from.
     """
 
-    def __init__(self, pressure_kPa: float, reason: str) -> None:
+    def __init__(self, pressure_kPa: float, reason: str, place: StopPlace | None = None) -> None:
         super().__init__(reason)
         self.pressure_kPa = pressure_kPa
         self.reason = reason
+        self.place = place
 
 
 def settle_under_gravity(
@@ -98,7 +134,7 @@ def ramp_at_rest(
     problem: Equilibrium, hanging: NewtonResult, *, solver: LinearSolver, stepping: SteppingSettings
 ) -> RampPlace:
     """Return the place of a ramp that has not begun, at the equilibrium without gas pressure."""
-    return RampPlace((_waypoint(problem, 0.0, hanging, solver),), stepping.first_step_kPa)
+    return RampPlace((waypoint(problem, 0.0, hanging, solver),), stepping.first_step_kPa)
 
 
 def pressure_ramp(
@@ -111,7 +147,7 @@ def pressure_ramp(
     newton: NewtonSettings,
     stepping: SteppingSettings,
 ) -> Iterator[AcceptedStep]:
-    """Step through the given pressures.
+    """Step through the given pressures, snapping over folds of the path where it has to.
 
     Parameters
     ----------
@@ -132,120 +168,89 @@ def pressure_ramp(
     Raises
     ------
     RampStoppedError
-        If no step above the smallest converges.
+        If no step above the smallest converges, and no stable state is found near by either.
     """
-    history, step = list(start.history), start.step_kPa
+    ramp = _Ramp(problem, start, gravity=gravity, solver=solver, newton=newton, stepping=stepping)
     for target in targets_kPa:
-        while history[-1].pressure_kPa < target:
-            pressure = _next_pressure(history[-1].pressure_kPa, step, float(target))
-            load = Load(pressure * 1e-3, float(gravity))
-            guess = extrapolate(history, pressure)
-            try:
-                result = find_equilibrium(problem, guess, load, solver=solver, settings=newton)
-            except NotConvergedError as error:
-                step = 0.5 * (pressure - history[-1].pressure_kPa)
-                if step < stepping.smallest_step_kPa:
-                    raise RampStoppedError(history[-1].pressure_kPa, _why(history, error)) from error
-                continue
-            step = _adapted(step, result.iterations, stepping)
-            history = [history[-1], _waypoint(problem, pressure, result, solver)]
-            yield AcceptedStep(pressure, result, RampPlace(tuple(history), step))
+        while ramp.pressure_kPa < target:
+            step = ramp.advance(float(target))
+            if step is not None:
+                yield step
 
 
-@dataclass(frozen=True)
-class Waypoint:
-    """A state on the path and the direction in which the path goes on.
+class _Ramp:
+    """Where a pressure ramp stands, and how it goes on."""
 
-    Parameters
-    ----------
-    pressure_kPa : float
-    state : State
-    rate : State or None
-        Change per kPa; None where no tangent is at hand.
-    """
+    def __init__(
+        self,
+        problem: Equilibrium,
+        start: RampPlace,
+        *,
+        gravity: bool,
+        solver: LinearSolver,
+        newton: NewtonSettings,
+        stepping: SteppingSettings,
+    ) -> None:
+        self._problem, self._gravity, self._solver = problem, float(gravity), solver
+        self._newton, self._stepping = newton, stepping
+        self._history, self._step_kPa = list(start.history), start.step_kPa
 
-    pressure_kPa: float
-    state: State
-    rate: State | None
+    @property
+    def pressure_kPa(self) -> float:
+        """The last pressure reached."""
+        return self._history[-1].pressure_kPa
 
+    def advance(self, target_kPa: float) -> AcceptedStep | None:
+        """Try a step towards a pressure; None if it failed and the next is to be smaller."""
+        pressure = _next_pressure(self.pressure_kPa, self._step_kPa, target_kPa)
+        guess = extrapolate(self._history, pressure)
+        try:
+            result = find_equilibrium(
+                self._problem, guess, self._load(pressure), solver=self._solver, settings=self._newton
+            )
+        except NotConvergedError as error:
+            self._step_kPa = 0.5 * (pressure - self.pressure_kPa)
+            if self._step_kPa >= self._stepping.smallest_step_kPa:
+                return None
+            return self._snap(target_kPa, error)
+        self._step_kPa = _adapted(self._step_kPa, result.iterations, self._stepping)
+        return self._accept(pressure, result, self._history[-1:])
 
-@dataclass(frozen=True)
-class RampPlace:
-    """Where a pressure ramp stands: all that it needs to go on.
+    def _snap(self, target_kPa: float, failure: NotConvergedError) -> AcceptedStep:
+        """Look for a stable state beyond the fold at which stepping failed."""
+        pressure = min(self.pressure_kPa + self._stepping.snap_step_kPa, target_kPa)
+        last = self._history[-1].state
+        problem = self._problem
+        if not laws_are_stable(
+            problem.groups, deform(last.displacement, problem.mesh.elements, problem.geometry)
+        ):
+            # The energy falls as the material softens, and there is nothing to come to rest at.
+            raise RampStoppedError(self.pressure_kPa, str(failure), StopPlace(last)) from failure
+        try:
+            jump = snap(
+                self._problem,
+                last,
+                self._load(pressure),
+                solver=self._solver,
+                newton=self._newton,
+                max_steps=self._stepping.largest_snap_steps,
+            )
+        except NoStableStateError as error:
+            reason = f"{failure}; beyond, {error}"
+            cause = StopPlace(last, error.node, error.balloons, limit_point_kPa(self._history))
+            raise RampStoppedError(self.pressure_kPa, reason, cause) from error
+        self._step_kPa = self._stepping.snap_step_kPa
+        return self._accept(pressure, jump.result, [], jump.released_mJ)
 
-    Parameters
-    ----------
-    history : tuple of Waypoint
-        The last one or two.
-    step_kPa : float
-        The step to try next.
-    """
+    def _accept(
+        self, pressure_kPa: float, result: NewtonResult, before: list[Waypoint], released_mJ: float = 0.0
+    ) -> AcceptedStep:
+        self._history = [*before, waypoint(self._problem, pressure_kPa, result, self._solver)]
+        place = RampPlace(tuple(self._history), self._step_kPa)
+        return AcceptedStep(pressure_kPa, result, place, released_mJ)
 
-    history: tuple[Waypoint, ...]
-    step_kPa: float
-
-
-def extrapolate(history: list[Waypoint], pressure_kPa: float) -> State:
-    """Continue the path to a further pressure: Hermite's cubic through two waypoints, a line from one.
-
-    Parameters
-    ----------
-    history : list of Waypoint
-        The last one or two.
-    pressure_kPa : float
-    """
-    first, last = history[0], history[-1]
-    if last.rate is None:
-        return last.state
-    if first is last or first.rate is None:
-        return combine((1.0, pressure_kPa - last.pressure_kPa), (last.state, last.rate))
-    span = last.pressure_kPa - first.pressure_kPa
-    t = (pressure_kPa - first.pressure_kPa) / span
-    weights = (
-        (1.0 + 2.0 * t) * (1.0 - t) ** 2,
-        span * t * (1.0 - t) ** 2,
-        t**2 * (3.0 - 2.0 * t),
-        span * t**2 * (t - 1.0),
-    )
-    return combine(weights, (first.state, first.rate, last.state, last.rate))
-
-
-def _waypoint(
-    problem: Equilibrium, pressure_kPa: float, result: NewtonResult, solver: LinearSolver
-) -> Waypoint:
-    """Find the path's direction with the last tangent, which is a correction or two behind the state."""
-    if result.tangent_at is None:
-        return Waypoint(pressure_kPa, result.state, None)
-    rate = np.zeros_like(result.state.displacement)
-    rate[problem.is_free] = solver.solve(1e-3 * problem.unit_pressure_forces(result.state)[problem.is_free])
-    return Waypoint(pressure_kPa, result.state, problem.linear_change(result.tangent_at, rate))
-
-
-def _why(history: list[Waypoint], error: NotConvergedError) -> str:
-    """Say why no further step converges, with the limit point if the path turns steep towards one."""
-    limit_kPa = limit_point_kPa(history)
-    last_kPa = history[-1].pressure_kPa
-    if limit_kPa - last_kPa < _NEAR_KPA:
-        return (
-            f"a limit point, a maximum of the gas pressure, is foreseen at {limit_kPa:.2f} kPa; "
-            "volume control passes it"
-        )
-    return f"no equilibrium was found beyond: {error}"
-
-
-def limit_point_kPa(history: list[Waypoint]) -> float:
-    """Return the pressure of the limit point that the last two waypoints foresee; infinite if none.
-
-    Towards a limit point the path turns steep, its rate growing with one over the root of the pressure
-    that is left (a fold): the inverse square of the rate falls linearly to nothing.
-    """
-    pairs = [(point.pressure_kPa, point.rate) for point in history if point.rate is not None]
-    if len(pairs) < 2:
-        return np.inf
-    (before_kPa, before), (last_kPa, last) = pairs
-    left = [1.0 / float(np.sum(rate.displacement**2)) for rate in (before, last)]
-    fallen = left[0] - left[1]
-    return last_kPa + (last_kPa - before_kPa) * left[1] / fallen if fallen > 0.0 else np.inf
+    def _load(self, pressure_kPa: float) -> Load:
+        return Load(pressure_kPa * 1e-3, self._gravity)
 
 
 def _next_pressure(current: float, step: float, target: float) -> float:

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .continuation import AcceptedStep, RampPlace
+from .continuation import AcceptedStep
 from .elements import FloatArray
 from .equilibrium import Equilibrium, State
 from .newton import NewtonResult
+from .ramp_path import RampPlace
 from .simulation import StepRecord
 
 
@@ -90,6 +91,7 @@ class Journal:
                 strain_energy_mJ=2.0 * (self._problem.strain_energy(state) - self._first_energy),
                 gas_work_mJ=self._gas_work_mJ(step.pressure_kPa, volume),
                 gravity_work_mJ=self._gravity_work_mJ(state),
+                released_mJ=self._released_mJ(step),
             )
         )
         for row in np.flatnonzero(self._pressures == step.pressure_kPa):
@@ -104,6 +106,10 @@ class Journal:
         last = self.steps[-1]
         mean_MPa = 0.5e-3 * (last.pressure_kPa + pressure_kPa)
         return last.gas_work_mJ + mean_MPa * (volume_mm3 - last.enclosed_volume_mm3)
+
+    def _released_mJ(self, step: AcceptedStep) -> float:
+        before_mJ = self.steps[-1].released_mJ if self.steps else 0.0
+        return before_mJ + 2.0 * step.released_mJ
 
     def _gravity_work_mJ(self, state: State) -> float:
         return 2.0 * (self._problem.gravity_work(state) - self._first_gravity_work)

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .actuator_problem import region_materials
 from .constitutive import deform
 from .element_geometry import element_geometry
 from .elements import FloatArray
-from .materials.library import find_material
+from .law_use import UnstableUse, unstable_use
 from .materials.material_files import Material
-from .materials.stability import stability_margin
+from .self_contact import self_contact
 from .simulation import Simulation
 
 _SMALLEST_TURN_MM = 0.5
@@ -62,9 +63,17 @@ class DesignOutputs:
         At the highest pressure reached; the ratio is to the undeformed volume.
     stretch : tuple of StretchUse
         One for each material.
-    composite_unstable_from_kPa : float or None
-        Lowest pressure at which a homogeneous composite is deformed, at any Gauss point, to where its law is
-        unstable in Drucker's sense; None where it is not, or the composite is matrix and paper.
+    unstable : UnstableUse or None
+        A point at which a law is deformed to where it is unstable; None where all are stable everywhere.
+    unstable_from_kPa : float or None
+        Lowest of the pressures at which there is one.
+    touches_itself_from_kPa : float or None
+        Lowest of the pressures at which the outline in the plane of symmetry crosses itself, see
+        `self_contact`: from there on contact, which is not modelled, would change the path.
+    loses_stability_at_kPa : float or None
+        Pressure of the first step whose tangent has a negative eigenvalue: the branch followed is unstable.
+    released_mJ : float
+        Energy given off where the actuator snapped over folds of the path.
     """
 
     mode_change_kPa: float | None
@@ -73,7 +82,11 @@ class DesignOutputs:
     enclosed_volume_mm3: float
     volume_ratio: float
     stretch: tuple[StretchUse, ...]
-    composite_unstable_from_kPa: float | None = None
+    unstable: UnstableUse | None
+    unstable_from_kPa: float | None
+    touches_itself_from_kPa: float | None
+    loses_stability_at_kPa: float | None
+    released_mJ: float
 
 
 def design_outputs(simulation: Simulation) -> DesignOutputs:
@@ -91,6 +104,7 @@ def design_outputs(simulation: Simulation) -> DesignOutputs:
     pressures = simulation.tip_path.pressure_kPa[reached]
     change_kPa, extremum_mm, secondary_mm = mode_change(pressures, ux)
     volume = float(simulation.enclosed_volume_mm3[reached[-1]])
+    unstable, unstable_kPa = _first_unstable(simulation, reached)
     return DesignOutputs(
         mode_change_kPa=change_kPa,
         first_extremum_mm=extremum_mm,
@@ -98,7 +112,11 @@ def design_outputs(simulation: Simulation) -> DesignOutputs:
         enclosed_volume_mm3=volume,
         volume_ratio=volume / simulation.geometry.gas_volume_mm3(),
         stretch=_stretch_uses(simulation, reached),
-        composite_unstable_from_kPa=_unstable_from(simulation, reached),
+        unstable=unstable,
+        unstable_from_kPa=unstable_kPa,
+        touches_itself_from_kPa=_touches_itself_from(simulation, reached),
+        loses_stability_at_kPa=next((s.pressure_kPa for s in simulation.steps if s.negative_pivots), None),
+        released_mJ=simulation.steps[-1].released_mJ,
     )
 
 
@@ -129,13 +147,8 @@ def mode_change(pressure_kPa: FloatArray, ux_mm: FloatArray) -> tuple[float | No
 
 
 def _stretch_uses(simulation: Simulation, reached: np.ndarray) -> tuple[StretchUse, ...]:
-    mesh, settings = simulation.mesh, simulation.settings
-    materials = {
-        "composite": settings.composite or find_material(settings.matrix_material),
-        "strip A": find_material(settings.strip_a_material),
-        "body": find_material(settings.body_material),
-        "strip B": find_material(settings.strip_b_material),
-    }
+    mesh = simulation.mesh
+    materials = region_materials(simulation.settings)
     by_name = {each.name: each for each in materials.values()}
     material = np.array([materials[mesh.region_names[code]].name for code in mesh.region])
     geometry = element_geometry(mesh)
@@ -150,17 +163,22 @@ def _stretch_uses(simulation: Simulation, reached: np.ndarray) -> tuple[StretchU
     )
 
 
-def _unstable_from(simulation: Simulation, reached: np.ndarray) -> float | None:
-    composite, mesh = simulation.settings.composite, simulation.mesh
-    if composite is None:
-        return None
+def _first_unstable(
+    simulation: Simulation, reached: np.ndarray
+) -> tuple[UnstableUse, float] | tuple[None, None]:
+    mesh, materials = simulation.mesh, region_materials(simulation.settings)
     geometry = element_geometry(mesh)
-    filled = mesh.region == mesh.region_names.index("composite")
     for row in reached:
         state = deform(simulation.displacement_mm[row], mesh.elements, geometry)
-        log_stretch = state.log_stretch[filled].reshape(-1, 3)
-        isochoric = log_stretch - log_stretch.mean(axis=1, keepdims=True)
-        if not np.all(stability_margin(composite.law, isochoric) > 0.0):
+        unstable = unstable_use(materials, mesh, state)
+        if unstable is not None:
+            return unstable, float(simulation.tip_path.pressure_kPa[row])
+    return None, None
+
+
+def _touches_itself_from(simulation: Simulation, reached: np.ndarray) -> float | None:
+    for row in reached:
+        if self_contact(simulation.mesh, simulation.displacement_mm[row]) is not None:
             return float(simulation.tip_path.pressure_kPa[row])
     return None
 

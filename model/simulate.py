@@ -9,7 +9,7 @@ import numpy as np
 from spavision.errors import InputError
 from spavision.tip_path import TipPath
 
-from .actuator_problem import actuator_problem
+from .actuator_problem import actuator_problem, region_materials
 from .continuation import AcceptedStep, RampStoppedError, pressure_ramp, ramp_at_rest, settle_under_gravity
 from .elements import FloatArray
 from .equilibrium import Equilibrium
@@ -20,6 +20,7 @@ from .linear_solver import LinearSolver, linear_solver
 from .observe import centre_line, locate
 from .quiet_threads import quiet_blas
 from .simulation import Simulation, SimulationSettings, StepRecord
+from .stop_reason import stop_reason
 from .volume_control import volume_ramp
 
 __all__ = ["Simulation", "SimulationSettings", "StepRecord", "simulate"]
@@ -76,34 +77,31 @@ def simulate(
     journal = Journal(problem, pressures, progress)
     stop: RampStoppedError | None = None
     try:
-        with quiet_blas():
+        # A step too far may overflow before it is found to be one.
+        with quiet_blas(), np.errstate(over="ignore", invalid="ignore"):
             for step in _ramp(problem, journal, pressures[pressures > 0.0], settings, solver, resume):
                 journal.add(step)
                 if keep is not None and step.place is not None:
                     keep(journal.checkpoint(step.place))
     except RampStoppedError as error:
         stop = error
+    reason = (
+        stop_reason(problem, stop, geometry=geometry, materials=region_materials(settings)) if stop else ""
+    )
     return Simulation(
         geometry=geometry,
         crimp_ratio=crimp_ratio,
         settings=settings,
         mesh=problem.mesh,
-        tip_path=_tip_path(problem.mesh, geometry, pressures, journal.displacement_mm, stop),
+        tip_path=_tip_path(problem.mesh, geometry, pressures, journal.displacement_mm, stop, reason),
         displacement_mm=journal.displacement_mm,
         enclosed_volume_mm3=journal.enclosed_volume_mm3,
         centre_line_mm=centre_line(problem.mesh, geometry, journal.displacement_mm),
         steps=tuple(journal.steps),
         stopped_at_kPa=stop.pressure_kPa if stop else None,
-        stop_reason=_stop_reason(stop, settings),
+        stop_reason=reason,
         solver_name=solver.name,
     )
-
-
-def _stop_reason(stop: RampStoppedError | None, settings: SimulationSettings) -> str:
-    if stop is None:
-        return ""
-    doubt = "; the composite is one law here, which may have lost its stability"
-    return stop.reason + (doubt if settings.composite is not None else "")
 
 
 def _ramp(
@@ -176,12 +174,13 @@ def _tip_path(
     pressures_kPa: FloatArray,
     displacement_mm: FloatArray,
     stop: RampStoppedError | None,
+    cause: str,
 ) -> TipPath:
     """Displacement of the marker relative to the lowest pressure."""
     marker = locate(mesh, np.array(geometry.marker_position_mm)).displacement(displacement_mm)
     relative = marker - marker[0]
     reached = np.isfinite(relative[:, 0])
-    reason = f"the ramp stopped at {stop.pressure_kPa:.4g} kPa: {stop.reason}" if stop else ""
+    reason = f"the ramp stopped at {stop.pressure_kPa:.4g} kPa: {cause}" if stop else ""
     unknown = np.full(len(pressures_kPa), np.nan)
     return TipPath(
         pressure_kPa=pressures_kPa,

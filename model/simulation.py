@@ -93,6 +93,8 @@ class StepRecord:
         ∫ p dV since then, by the trapezoidal rule over the steps.
     gravity_work_mJ : float
         Work of the weight since then.
+    released_mJ : float
+        Energy given off since then where the body snapped over folds of the path.
     """
 
     pressure_kPa: float
@@ -103,11 +105,12 @@ class StepRecord:
     strain_energy_mJ: float
     gas_work_mJ: float
     gravity_work_mJ: float
+    released_mJ: float = 0.0
 
     @property
     def energy_imbalance_mJ(self) -> float:
-        """Work done less energy stored: the error of the trapezoidal rule, falling with the step squared."""
-        return self.gas_work_mJ + self.gravity_work_mJ - self.strain_energy_mJ
+        """Work done less energy stored or given off: the trapezoidal rule's error, ∝ step squared."""
+        return self.gas_work_mJ + self.gravity_work_mJ - self.strain_energy_mJ - self.released_mJ
 
 
 @dataclass(frozen=True)

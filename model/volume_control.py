@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .continuation import AcceptedStep, RampStoppedError
+from .continuation import AcceptedStep, RampStoppedError, StopPlace
 from .elements import FloatArray
 from .equilibrium import Equilibrium
 from .linear_solver import LinearSolver, SingularTangentError
@@ -151,7 +151,9 @@ def volume_path(
         except NotConvergedError as error:
             step *= 0.5
             if step < stepping.smallest_step * first_mm3:
-                raise RampStoppedError(1e3 * history[-1].gas_pressure_MPa, str(error)) from error
+                last = history[-1]
+                place = StopPlace(last.result.state)
+                raise RampStoppedError(1e3 * last.gas_pressure_MPa, str(error), place) from error
             continue
         if point.result.iterations <= _EASY_ITERATIONS:
             step = min(_GROWTH_OF_EASY_STEP * step, stepping.largest_step * first_mm3)
@@ -199,7 +201,7 @@ def volume_ramp(
             try:
                 result = find_equilibrium(problem, guess, load, solver=solver, settings=newton)
             except NotConvergedError as error:
-                raise RampStoppedError(highest_kPa, str(error)) from error
+                raise RampStoppedError(highest_kPa, str(error), StopPlace(before.result.state)) from error
             yield AcceptedStep(target, result)
         if not waiting:
             return

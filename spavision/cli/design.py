@@ -38,16 +38,17 @@ def design_rows(outputs: DesignOutputs) -> list[list[str]]:
 
 def stretch_warnings(outputs: DesignOutputs) -> list[str]:
     """Return a sentence for each material that is stretched beyond its calibration or unstable."""
-    unstable_kPa = outputs.composite_unstable_from_kPa
-    unstable = (
-        []
-        if unstable_kPa is None
-        else [
-            f"the composite's law is unstable from {unstable_kPa:g} kPa on (Drucker), so results beyond mean "
-            "little; use --composite slack-fibre or resolved"
-        ]
-    )
-    return unstable + [
+    warnings = []
+    if outputs.unstable is not None:
+        warnings.append(
+            f"from {outputs.unstable_from_kPa:g} kPa on {outputs.unstable}; results beyond mean little"
+            + (
+                "; use --composite slack-fibre or resolved"
+                if outputs.unstable.region == "composite"
+                else "; choose another law or refit it (spavision fit)"
+            )
+        )
+    return warnings + [
         f"{use.material} is stretched to {use.largest_stretch:.2f} at {use.pressure_kPa:g} kPa, beyond "
         f"{use.calibrated[1]:.2f}, to which its law was calibrated"
         for use in outputs.stretch

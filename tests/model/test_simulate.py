@@ -100,7 +100,7 @@ def test_stopped_ramp_keeps_what_it_reached() -> None:
     settings = replace(
         DRAFT,
         newton=NewtonSettings(max_iterations=1),
-        stepping=SteppingSettings(smallest_step_kPa=1.0),
+        stepping=SteppingSettings(smallest_step_kPa=1.0, largest_snap_steps=0),
         gravity=False,
     )
     seen: list[float] = []

@@ -56,6 +56,8 @@ def _validation(validation: Validation) -> dict[str, Any]:
         **asdict(validation),
         "u_val_mm": validation.u_val_mm,
         "is_significant": validation.is_significant,
+        "left_out": validation.left_out,
+        "left_out_in_part": validation.left_out_in_part,
     }
 
 

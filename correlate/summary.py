@@ -74,8 +74,15 @@ class Summary:
             f"{int(np.sum(validation.is_significant & common))} in {name}"
             for name, validation in (("x", self.validation_x), ("y", self.validation_y))
         ]
-        left_out = self.validation_x.left_out
-        caveat = f" ({' and '.join(left_out)} not estimated, so it is a lower bound)" if left_out else ""
+        missing = [
+            f"{' and '.join(names)} not estimated{where}"
+            for names, where in (
+                (self.validation_x.left_out, ""),
+                (self.validation_x.left_out_in_part, " at every pressure"),
+            )
+            if names
+        ]
+        caveat = f" ({', '.join(missing)}, so it is a lower bound)" if missing else ""
         if not any(np.any(v.is_significant & common) for v in (self.validation_x, self.validation_y)):
             return (
                 f"Nowhere does the error exceed twice the validation uncertainty{caveat}: "

@@ -20,28 +20,43 @@ class Validation:
     """One displacement component's comparison error with the uncertainty that it must be seen against.
 
     ``u_val² = u_num² + u_input² + u_D²``. A part that nobody has estimated is taken as zero and named in
-    `left_out`: the uncertainty is then a lower bound, and a difference called significant might not be.
+    `left_out` or `left_out_in_part`: the uncertainty is then a lower bound, and a difference called
+    significant might not be.
 
     Parameters
     ----------
     error_mm : array, shape (n,)
         E = S − D.
     u_num_mm, u_input_mm, u_data_mm : array, shape (n,)
-        Standard uncertainties from the mesh, from the model's inputs and of the measurement.
-    left_out : tuple of str
-        Parts that are not estimated.
+        Standard uncertainties from the mesh, from the model's inputs and of the measurement; NaN where not
+        estimated.
     """
 
     error_mm: FloatArray
     u_num_mm: FloatArray
     u_input_mm: FloatArray
     u_data_mm: FloatArray
-    left_out: tuple[str, ...]
 
     @property
     def u_val_mm(self) -> FloatArray:
-        """Standard validation uncertainty, shape (n,)."""
-        return np.sqrt(self.u_num_mm**2 + self.u_input_mm**2 + self.u_data_mm**2)
+        """Standard validation uncertainty, of the parts that are known, shape (n,)."""
+        return np.sqrt(np.sum([np.nan_to_num(part) ** 2 for part in self._parts.values()], axis=0))
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """Parts that are estimated nowhere."""
+        return tuple(name for name, part in self._parts.items() if not np.isfinite(part).any())
+
+    @property
+    def left_out_in_part(self) -> tuple[str, ...]:
+        """Parts that are estimated, but not wherever there is an error."""
+        compared = np.isfinite(self.error_mm)
+        lacking = (name for name, part in self._parts.items() if np.isnan(part[compared]).any())
+        return tuple(name for name in lacking if name not in self.left_out)
+
+    @property
+    def _parts(self) -> dict[str, FloatArray]:
+        return {"mesh": self.u_num_mm, "inputs": self.u_input_mm, "measurement": self.u_data_mm}
 
     @property
     def is_significant(self) -> NDArray[np.bool_]:
@@ -88,13 +103,10 @@ def validate(discrepancy: Discrepancy, model: ModelUncertainty) -> tuple[Validat
 def _validation(
     error_mm: FloatArray, mesh_mm: FloatArray | None, inputs_mm: FloatArray | None, data_mm: FloatArray
 ) -> Validation:
-    parts = {"mesh": mesh_mm, "inputs": inputs_mm, "measurement": data_mm}
-    estimated = {name: part for name, part in parts.items() if part is not None and np.any(np.isfinite(part))}
-    nothing = np.zeros_like(error_mm)
+    unknown = np.full_like(error_mm, np.nan)
     return Validation(
         error_mm,
-        estimated.get("mesh", nothing),
-        estimated.get("inputs", nothing),
-        estimated.get("measurement", nothing),
-        left_out=tuple(name for name in parts if name not in estimated),
+        unknown if mesh_mm is None else mesh_mm,
+        unknown if inputs_mm is None else inputs_mm,
+        data_mm,
     )

@@ -21,8 +21,6 @@ from .suspects import nominal_point
 if TYPE_CHECKING:
     import pandas as pd
 
-_LIKENESSES_SAID = 4
-
 _TRUSTWORTHY = 0.9
 """Predicted share of the held-out variance below which an emulator is not to be relied on."""
 
@@ -92,8 +90,10 @@ class Attribution:
         name, value = next(iter(best.values.items()))
         text = value if isinstance(value, str) else f"{value:.3g}"
         rmse = self.check.rmse_mm
+        lowest, highest = min(self.plan.pressures_kPa), max(self.plan.pressures_kPa)
         found = [
-            f"Model and measurement are {best.nominal_rmse_mm:.1f} mm apart (root mean square distance).",
+            f"At the study's pressures, {lowest:g} to {highest:g} kPa, model and measurement are "
+            f"{best.nominal_rmse_mm:.1f} mm apart (root mean square distance).",
             f"Alone, {name} explains most: {100 * best.explained:.0f} % of it, at {text}.",
             f"All inputs of the model together leave {self.together.rmse_mm:.1f} mm "
             f"({100 * self.together.explained:.0f} % explained; the model itself, run there, leaves "
@@ -113,7 +113,7 @@ class Attribution:
                 f"Against {len(self.full_check_mm)} runs of the full model the predicted change of the path "
                 f"is off by {error:.1f} mm (root mean square over all pressures)."
             )
-        found += [one.sentence() for one in likenesses(self.local)[:_LIKENESSES_SAID]]
+        found += [one.sentence() for one in likenesses(self.local)]
         if self.n_not_whole:
             found.append(
                 f"{self.n_not_whole} of {self.plan.n_cases} random cases failed or stopped early; the "

@@ -83,5 +83,6 @@ def lost(index: int) -> Finished:
     """Return what becomes of a case under which every worker died."""
     return Finished(
         index,
-        reason=f"its worker died at each of {ATTEMPTS} attempts (killed, or out of memory); run the study again",
+        reason=f"its worker died at each of {ATTEMPTS} attempts (killed, or out of memory); run the study "
+        "again",
     )

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from SALib.analyze import sobol as sobol_analysis
 from SALib.sample import sobol as sobol_sample
+from scipy.sparse.csgraph import connected_components
 
 from spavision.tip_path import FloatArray
 
@@ -118,23 +119,25 @@ class LocalSensitivity:
 
 @dataclass(frozen=True)
 class Likeness:
-    """Two suspects that move the tip alike, so that a tip path hardly tells one from the other.
+    """Suspects that move the tip alike, so that a tip path hardly tells one from another.
 
     Parameters
     ----------
     names : tuple of str
     cosine : float
-        Of the angle between their changes over all pressures: 1 or −1 where they are proportional.
+        Least one of those that link them, of the angle between their changes over all pressures, without its
+        sign: 1 where they are proportional.
     """
 
-    names: tuple[str, str]
+    names: tuple[str, ...]
     cosine: float
 
     def sentence(self) -> str:
         """Say it."""
+        names = f"{', '.join(self.names[:-1])} and {self.names[-1]}"
         return (
-            f"{self.names[0]} and {self.names[1]} move the tip alike (cosine {self.cosine:+.3f}): the path "
-            "hardly tells one from the other."
+            f"{names} move the tip alike (cosine {self.cosine:.3f} or more): the path hardly tells one from "
+            "another."
         )
 
 
@@ -157,18 +160,19 @@ def local_sensitivities(
 
 
 def likenesses(found: Sequence[LocalSensitivity]) -> list[Likeness]:
-    """Return the pairs of suspects that move the tip alike and by much, the most alike first."""
-    changes = [np.nan_to_num(one.change_mm).ravel() for one in found]
-    sizes = [float(np.linalg.norm(change)) for change in changes]
-    moving = [index for index, size in enumerate(sizes) if size > _SMALL_CHANGE * max(sizes)]
-    pairs = [
-        Likeness(
-            (found[i].suspect.name, found[k].suspect.name),
-            float(changes[i] @ changes[k]) / (sizes[i] * sizes[k]),
-        )
-        for i, k in itertools.combinations(moving, 2)
+    """Return the groups of suspects that move the tip alike and by much, each linked to one of its group."""
+    changes = np.array([np.nan_to_num(one.change_mm).ravel() for one in found])
+    sizes = np.linalg.norm(changes, axis=1)
+    moving = np.flatnonzero((sizes > _SMALL_CHANGE * sizes.max()) & (sizes > 0.0))
+    directions = changes[moving] / sizes[moving, None]
+    cosines = np.abs(directions @ directions.T)
+    count, group = connected_components(cosines > _ALIKE, directed=False)
+    members = [np.flatnonzero(group == index) for index in range(count)]
+    linked = [(rows, cosines[np.ix_(rows, rows)]) for rows in members if len(rows) > 1]
+    return [
+        Likeness(tuple(found[moving[row]].suspect.name for row in rows), float(block[block > _ALIKE].min()))
+        for rows, block in linked
     ]
-    return sorted((one for one in pairs if abs(one.cosine) > _ALIKE), key=lambda one: -abs(one.cosine))
 
 
 def local_table(found: Sequence[LocalSensitivity], pressure_kPa: FloatArray) -> pd.DataFrame:

@@ -66,7 +66,7 @@ class StudyResults:
     measured: Mapping[str, Any] = field(default_factory=dict)
 
     def for_path(self, measured: TipPath) -> StudyResults:
-        """Return what the study says of a measured path, in the model's axes: an attribution of that alone."""
+        """Return what the study says of a path in the model's axes: an attribution of that path alone."""
         if not self.attribution or same_path(self.measured, measured):
             return self
         note = (
@@ -78,23 +78,24 @@ class StudyResults:
     def inputs_mm(self, pressure_kPa: FloatArray) -> FloatArray:
         """Return u_input of x and y at other pressures, shape (2, n).
 
-        Interpolated between the study's pressures, zero beyond them, where nobody has estimated it; NaN
-        everywhere if all pressures lie beyond.
+        Interpolated between the study's pressures; NaN beyond them, where nobody has estimated it.
         """
-        found = np.array(
+        return np.array(
             [
                 np.interp(pressure_kPa, self.pressure_kPa, one, left=np.nan, right=np.nan)
                 for one in self.u_input_mm
             ]
         )
-        return np.nan_to_num(found) if np.isfinite(found).any() else found
 
     def rows(self) -> list[list[str]]:
         """Return the attribution as rows of text, the header first."""
         rows = []
         for one in self.attribution:
-            cells = [_short(one[name]) for name in _SHOWN]
-            rows.append([*cells[:-1], f"{100 * float(one['explained']):.0f} %"])
+            cells = {name: _short(one[name]) for name in _SHOWN}
+            cells["explained"] = f"{100 * float(one['explained']):.0f} %"
+            if not _is_number(one["low"]):
+                cells |= {"low": "choice", "high": ""}
+            rows.append(list(cells.values()))
         return [list(_SHOWN.values()), *rows]
 
     def picture(self) -> Picture | None:
@@ -173,7 +174,7 @@ def _notes(table: dict[str, FloatArray], record: dict[str, Any]) -> tuple[str, .
     model = record.get("study", {}).get("study", {}).get("model", "reduced")
     notes = [
         f"u_input is the scatter of {table['n_cases'][0]:.0f} cases of the {model} model, known up to "
-        f"{highest:g} kPa, the highest pressure of the study; beyond, it is 0."
+        f"{highest:g} kPa, the highest pressure of the study."
     ]
     if record.get("remark"):
         notes.append(f"The study of u_input is {record['remark']}.")
@@ -196,7 +197,12 @@ def _record(folder: Path) -> dict[str, Any]:
 
 
 def _short(text: str) -> str:
+    return f"{float(text):.4g}" if _is_number(text) else text
+
+
+def _is_number(text: str) -> bool:
     try:
-        return f"{float(text):.4g}"
+        float(text)
     except ValueError:
-        return text
+        return False
+    return True

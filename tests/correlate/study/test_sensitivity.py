@@ -135,17 +135,24 @@ def test_choice_goes_between_the_options_that_are_furthest_apart() -> None:
 
 
 def test_suspects_that_move_the_tip_in_proportion_are_named() -> None:
-    """(1, 2, 3) and −2·(1, 2, 3): cosine −1; (3, 0, −1) is at right angles; a thousandth is not spoken of."""
-    ramp, other = np.array([1.0, 2.0, 3.0]), np.array([3.0, 0.0, -1.0])
-    changes = {"gauge": ramp, "stiffness": -2.0 * ramp, "wall": other, "bulk": 1e-3 * ramp}
-    found = likenesses(
+    """(1, 2, 3), −2·(1, 2, 3) and (1, 2, 2.5), cos 0.996; a right angle and a thousandth are not."""
+    ramp = np.array([1.0, 2.0, 3.0])
+    changes = {
+        "gauge": ramp,
+        "stiffness": -2.0 * ramp,
+        "side wall": np.array([1.0, 2.0, 2.5]),
+        "roof": np.array([3.0, 0.0, -1.0]),
+        "bulk": 1e-3 * ramp,
+    }
+    (found,) = likenesses(
         [
             LocalSensitivity(number(name, 0.0, 1.0), (0.0, 1.0), np.array([change, 0.0 * change]))
             for name, change in changes.items()
         ]
     )
-    assert [(one.names, round(one.cosine, 9)) for one in found] == [(("gauge", "stiffness"), -1.0)]
-    assert "gauge and stiffness move the tip alike (cosine -1.000)" in found[0].sentence()
+    assert found.names == ("gauge", "stiffness", "side wall")
+    assert found.cosine == pytest.approx(12.5 / np.sqrt(14.0 * 11.25))
+    assert "gauge, stiffness and side wall move the tip alike (cosine 0.996 or more)" in found.sentence()
 
 
 def test_form_of_the_model_and_the_measurement_are_no_inputs() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -71,9 +72,11 @@ class DesignOutputs:
         Lowest of the pressures at which the outline in the plane of symmetry crosses itself, see
         `self_contact`: from there on contact, which is not modelled, would change the path.
     loses_stability_at_kPa : float or None
-        Pressure of the first step whose tangent has a negative eigenvalue: the branch followed is unstable.
+        Pressure from which the tangent has a negative eigenvalue: the branch followed is unstable.
+    snaps_from_kPa : float or None
+        Pressure of the first step at which the actuator snapped over a fold of the path.
     released_mJ : float
-        Energy given off where the actuator snapped over folds of the path.
+        Energy given off in all such snaps.
     """
 
     mode_change_kPa: float | None
@@ -86,6 +89,7 @@ class DesignOutputs:
     unstable_from_kPa: float | None
     touches_itself_from_kPa: float | None
     loses_stability_at_kPa: float | None
+    snaps_from_kPa: float | None
     released_mJ: float
 
 
@@ -115,7 +119,10 @@ def design_outputs(simulation: Simulation) -> DesignOutputs:
         unstable=unstable,
         unstable_from_kPa=unstable_kPa,
         touches_itself_from_kPa=_touches_itself_from(simulation, reached),
-        loses_stability_at_kPa=next((s.pressure_kPa for s in simulation.steps if s.negative_pivots), None),
+        loses_stability_at_kPa=_loses_stability_at(simulation),
+        snaps_from_kPa=next(
+            (step.pressure_kPa for step in simulation.steps if step.released_mJ != 0.0), None
+        ),
         released_mJ=simulation.steps[-1].released_mJ,
     )
 
@@ -174,6 +181,14 @@ def _first_unstable(
         if unstable is not None:
             return unstable, float(simulation.tip_path.pressure_kPa[row])
     return None, None
+
+
+def _loses_stability_at(simulation: Simulation) -> float | None:
+    """Pressure of the first of two steps running with a negative pivot: one alone may lie off equilibrium."""
+    for step, following in pairwise(simulation.steps):
+        if step.negative_pivots and following.negative_pivots:
+            return step.pressure_kPa
+    return None
 
 
 def _touches_itself_from(simulation: Simulation, reached: np.ndarray) -> float | None:

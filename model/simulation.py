@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,6 +18,9 @@ from .materials.material_files import Material
 from .newton import NewtonSettings
 from .observe import locate
 from .volume_control import VolumeStepping
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 RAMP_NEWTON = NewtonSettings(
     residual_tolerance=5e-5, correction_tolerance_mm=5e-3, reuse_below_mm=0.05, max_iterations=12
@@ -153,6 +157,13 @@ class Simulation:
     stopped_at_kPa: float | None
     stop_reason: str
     solver_name: str
+
+    def step_table(self) -> pd.DataFrame:
+        """Return the steps' records as a DataFrame, one row a step, with what the energy balance misses."""
+        import pandas as pd
+
+        rows = [asdict(step) | {"energy_imbalance_mJ": step.energy_imbalance_mJ} for step in self.steps]
+        return pd.DataFrame(rows)
 
     @property
     def marker_at_rest_mm(self) -> FloatArray:

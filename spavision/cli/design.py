@@ -36,6 +36,28 @@ def design_rows(outputs: DesignOutputs) -> list[list[str]]:
     return rows + [_stretch_row(use) for use in outputs.stretch]
 
 
+def path_warnings(outputs: DesignOutputs) -> list[str]:
+    """Return a sentence for each thing that sets the computed path apart from a real actuator's."""
+    warnings = []
+    if outputs.touches_itself_from_kPa is not None:
+        warnings.append(
+            f"from {outputs.touches_itself_from_kPa:g} kPa on the actuator passes through itself; contact is "
+            "not modelled, so that the real one would go another way"
+        )
+    if outputs.loses_stability_at_kPa is not None:
+        warnings.append(
+            f"from {outputs.loses_stability_at_kPa:.4g} kPa on the path is not stable: the real actuator "
+            "may buckle or snap away from it"
+        )
+    if outputs.snaps_from_kPa is not None:
+        warnings.append(
+            f"at {outputs.snaps_from_kPa:.4g} kPa the path folds back and the actuator snaps to the next "
+            f"stable shape ({outputs.released_mJ:.2g} mJ given off in all such snaps); often one corner of a "
+            "thin wall folds, which a finer mesh does at another pressure"
+        )
+    return warnings
+
+
 def stretch_warnings(outputs: DesignOutputs) -> list[str]:
     """Return a sentence for each material that is stretched beyond its calibration or unstable."""
     warnings = []

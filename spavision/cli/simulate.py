@@ -39,8 +39,8 @@ DEFAULT_PRESSURES = "0:65:5"
 def simulate(pressures_kpa: str, write_deck: Path | None, model: str, **given: Any) -> None:
     """Run the 3D finite-element model of the actuator.
 
-    Writes simulation.csv, the fields as VTU files for ParaView, a picture of the deformed shapes and an
-    animation of the ramp.
+    Writes simulation.csv, steps.csv (residual, energy balance and stability of each step), the fields
+    as VTU files for ParaView, a picture of the deformed shapes and an animation of the ramp.
     """
     from spavision.results import ResultsFolder
     from spavision.workflow.model_run import run_model, save_simulation, write_model_deck
@@ -127,11 +127,11 @@ def _report_design(simulation: Any) -> None:
     from spavision.model.outputs import design_outputs
 
     from . import output
-    from .design import design_rows, stretch_warnings
+    from .design import design_rows, path_warnings, stretch_warnings
 
     if not simulation.tip_path.has_reading.any():
         return
     outputs = design_outputs(simulation)
     output.print_table("For the designer", ["quantity", "value", "remark"], design_rows(outputs))
-    for warning in stretch_warnings(outputs):
+    for warning in path_warnings(outputs) + stretch_warnings(outputs):
         output.warn(warning)

@@ -117,12 +117,13 @@ def write_model_deck(path: Path, experiment: Experiment, pressure_kPa: FloatArra
 
 
 def write_simulation(results: ResultsFolder, simulation: Simulation) -> None:
-    """Write ``simulation.csv``, the fields, the picture and the animation of the deformed shapes."""
+    """Write ``simulation.csv``, ``steps.csv``, the fields, the picture and the animation of the ramp."""
     from spavision.model.animation import write_ramp_gif
     from spavision.model.export import write_vtu_series
     from spavision.model.figures import deformed_shapes
 
     results.write_text("simulation.csv", csv_text(simulation.tip_path.table()))
+    results.write_text("steps.csv", csv_text(simulation.step_table()))
     results.write(
         "figures/deformed_shapes.png", lambda path: deformed_shapes(simulation).savefig(path, dpi=150)
     )

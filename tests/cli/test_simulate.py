@@ -17,6 +17,9 @@ def test_a_short_ramp_writes_path_fields_and_picture(spavision, tmp_path):
     assert path["pressure_kPa"].tolist() == [0, 5]
     assert path["ux_mm"][0] == 0
     assert path["ux_mm"][1] > 0.5  # the first mode bends towards region B, which is positive x
+    steps = pd.read_csv(tmp_path / "out" / "steps.csv")
+    assert {"residual", "negative_pivots", "energy_imbalance_mJ"} <= set(steps)
+    assert steps["pressure_kPa"].iloc[-1] == 5
     fields = sorted((tmp_path / "out" / "fields").glob("*.vtu"))
     assert "displacement_mm" in meshio.read(fields[-1]).point_data
     assert (tmp_path / "out" / "figures" / "deformed_shapes.png").stat().st_size > 10_000

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from spavision.cli.design import stretch_warnings
+from spavision.cli.design import path_warnings, stretch_warnings
 from spavision.model.animation import write_ramp_gif
 from spavision.model.geometry import ActuatorGeometry
 from spavision.model.materials.material_files import Material
@@ -24,6 +24,26 @@ SHORT = ActuatorGeometry(void_count=2)
 def ramp() -> Simulation:
     settings = SimulationSettings(mesh_level="draft", body_material="Mold Star 15")
     return simulate(SHORT, crimp_ratio=0.2, pressures_kPa=np.array([0.0, 10.0, 20.0]), settings=settings)
+
+
+def test_instability_snaps_and_contact_are_told(ramp: Simulation) -> None:
+    """Records as a ramp past a bifurcation at 10 kPa and a fold at 20 kPa would have them."""
+    assert path_warnings(design_outputs(ramp)) == []
+    steps = [
+        replace(
+            step,
+            negative_pivots=int(step.pressure_kPa >= 10.0),
+            released_mJ=0.5 * (step.pressure_kPa == 20.0),
+        )
+        for step in ramp.steps
+    ]
+    nodes = ramp.mesh.nodes_mm
+    pushed = ramp.displacement_mm.copy()
+    pushed[-1, :, 0] = 40.0 * (nodes[:, 0] < 1.0) * (nodes[:, 1] > 12.0)
+    told = path_warnings(design_outputs(replace(ramp, steps=tuple(steps), displacement_mm=pushed)))
+    assert any(text.startswith("from 10 kPa on the path is not stable") for text in told)
+    assert any(text.startswith("at 20 kPa the path folds back") and "0.5 mJ" in text for text in told)
+    assert any(text.startswith("from 20 kPa on the actuator passes through itself") for text in told)
 
 
 def test_mode_change_of_a_parabola() -> None:

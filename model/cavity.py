@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
+from numba import njit, prange
 
 from .elements import FloatArray, IntArray, reference_face
 
@@ -53,14 +53,10 @@ class Cavity:
             In mm²; multiplied by the pressure, the forces on the walls.
         """
         table = reference_face(self.order)
-        points, along, across = self._at_points(position)
-        weights = table.weights[None, :, None]
-        scaled = points * np.asarray(self.axis_weights)
-        return (
-            np.einsum("fqi,qa->fia", np.cross(along, across) * weights * self.axis_weights, table.values)
-            + np.einsum("fqi,qa->fia", np.cross(across, scaled) * weights, table.tangents[:, 0])
-            + np.einsum("fqi,qa->fia", np.cross(scaled, along) * weights, table.tangents[:, 1])
-        )
+        out = np.empty((len(self.faces), 3, self.faces.shape[1]))
+        functions = np.stack([table.values, table.tangents[:, 0], table.tangents[:, 1]], axis=1)
+        _forces(position, self.faces, functions, table.weights, np.asarray(self.axis_weights), out)
+        return out
 
     def hessians(self, position: FloatArray) -> FloatArray:
         """Return the second derivative of the volume with respect to each face's nodes.
@@ -87,14 +83,49 @@ class Cavity:
 
 
 @njit(cache=True)
+def _forces(
+    position: FloatArray,
+    faces: IntArray,
+    functions: FloatArray,
+    weights: FloatArray,
+    axis_weights: FloatArray,
+    out: FloatArray,
+) -> None:
+    """First derivatives of det[c x, x_s, x_t]: each function times the product of the other two vectors."""
+    n_nodes = faces.shape[1]
+    vectors = np.empty((3, 3))
+    out[:] = 0.0
+    for f in range(len(faces)):
+        for q in range(len(weights)):
+            vectors[:] = 0.0
+            for a in range(n_nodes):
+                for m in range(3):
+                    for i in range(3):
+                        vectors[m, i] += functions[q, m, a] * position[faces[f, a], i]
+            x, along, across = vectors[0], vectors[1], vectors[2]
+            for i in range(3):
+                j, k = (i + 1) % 3, (i + 2) % 3
+                c, w = axis_weights, weights[q]
+                of_position = w * c[i] * (along[j] * across[k] - along[k] * across[j])
+                of_along = w * (across[j] * c[k] * x[k] - across[k] * c[j] * x[j])
+                of_across = w * (c[j] * x[j] * along[k] - c[k] * x[k] * along[j])
+                for a in range(n_nodes):
+                    out[f, i, a] += (
+                        of_position * functions[q, 0, a]
+                        + of_along * functions[q, 1, a]
+                        + of_across * functions[q, 2, a]
+                    )
+
+
+@njit(cache=True, parallel=True)
 def _hessians(
     vectors: FloatArray, functions: FloatArray, weights: FloatArray, axis_weights: FloatArray, out: FloatArray
 ) -> None:
     """Second derivatives of det[c x, x_s, x_t]: ε_ijk times the vector left over, for each pair."""
     n_faces, n_points = vectors.shape[:2]
     n_nodes = functions.shape[2]
-    out[:] = 0.0
-    for f in range(n_faces):
+    for f in prange(n_faces):
+        out[f] = 0.0
         for q in range(n_points):
             for block in range(3):
                 # (x, y), (y, z), (x, z): components i and j, the one left over, the permutation's sign

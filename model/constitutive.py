@@ -10,7 +10,7 @@ from .element_geometry import ElementGeometry
 from .elements import FloatArray, IntArray
 from .fibre_points import FibreFamily, add_fibres, fibre_response
 from .hex_mesh import HexMesh
-from .materials.solid import IsotropicLaw, SolidMaterial
+from .materials.solid import SolidMaterial
 from .stress_kernels import deformation, principal_moduli, principal_stress
 from .volume_guard import add_guard, guard_energy
 
@@ -130,17 +130,13 @@ def evaluate_materials(
     row = 0
     for group in groups:
         elements = group.elements
-        group_stress, group_moduli = _evaluate(group.material.law, _take(state, elements))
-        group_stress = group_stress.reshape(-1, n_points, 6)
-        group_moduli = group_moduli.reshape(-1, n_points, 6, 6)
+        _evaluate(group, state, stress, moduli)
         for fibre in group.material.fibres:
             predicted = None if tension is None else tension[row : row + len(elements)]
-            response = fibre_response(fibre, state.F[elements], predicted)
-            add_fibres(response, group_stress, group_moduli)
-            fibres.append(FibreFamily(fibre, elements, response))
+            family = FibreFamily(fibre, elements, fibre_response(fibre, state.F[elements], predicted))
+            add_fibres(family, stress, moduli)
+            fibres.append(family)
             row += len(elements)
-        stress[elements] = group_stress
-        moduli[elements] = group_moduli
     return MaterialResponse(stress, moduli, tuple(fibres))
 
 
@@ -171,11 +167,12 @@ def _isochoric(log_stretch: FloatArray) -> FloatArray:
     return log_stretch - log_stretch.mean(axis=1, keepdims=True)
 
 
-def _evaluate(law: IsotropicLaw, state: Deformation) -> tuple[FloatArray, FloatArray]:
-    first, second = law.derivatives(_isochoric(state.log_stretch))
-    stress = np.empty((len(first), 6))
-    moduli = np.empty((len(first), 6, 6))
-    principal_stress(state.directions, first, stress)
-    principal_moduli(state.directions, state.log_stretch, first, second, moduli)
-    add_guard(state.J, law.shear_modulus_MPa, stress, moduli)
-    return stress, moduli
+def _evaluate(group: MaterialGroup, state: Deformation, stress: FloatArray, moduli: FloatArray) -> None:
+    """Write a group's stress and moduli, fibres left out."""
+    law, elements = group.material.law, group.elements
+    points = (len(elements), state.J.shape[1])
+    first, second = law.derivatives(_isochoric(state.log_stretch[elements].reshape(-1, 3)))
+    first, second = first.reshape(*points, 3), second.reshape(*points, 3, 3)
+    principal_stress(elements, state.directions, first, stress)
+    principal_moduli(elements, state.directions, state.log_stretch, first, second, moduli)
+    add_guard(elements, state.J, law.shear_modulus_MPa, stress, moduli)

@@ -14,22 +14,26 @@ _VOIGT = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
 _FAST = {"contract", "reassoc", "nsz", "arcp"}
 
 
+@njit(cache=True)
+def _aligned(count: int, rows: int, columns: int) -> FloatArray:
+    """Zeros, shape (count, rows, columns), that begin with a cache line: vectors then lie within one each."""
+    size = count * rows * columns
+    memory = np.zeros(size + 8)
+    begin = -(memory.ctypes.data // 8) % 8
+    return memory[begin : begin + size].reshape((count, rows, columns))
+
+
 @njit(cache=True, fastmath=_FAST)
 def _spatial_gradients(F: FloatArray, J: float, gradients: FloatArray, out: FloatArray) -> None:
     """Turn gradients in undeformed coordinates, (3, n_nodes), into spatial ones, (3, n_nodes or more)."""
-    inverse = np.empty((3, 3))
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
-        for p in range(3):
-            q, r = (p + 1) % 3, (p + 2) % 3
-            inverse[p, i] = (F[j, q] * F[k, r] - F[j, r] * F[k, q]) / J
-    for i in range(3):
+        # column i of the inverse of F
+        inverse0 = (F[j, 1] * F[k, 2] - F[j, 2] * F[k, 1]) / J
+        inverse1 = (F[j, 2] * F[k, 0] - F[j, 0] * F[k, 2]) / J
+        inverse2 = (F[j, 0] * F[k, 1] - F[j, 1] * F[k, 0]) / J
         for a in range(gradients.shape[1]):
-            out[i, a] = (
-                inverse[0, i] * gradients[0, a]
-                + inverse[1, i] * gradients[1, a]
-                + inverse[2, i] * gradients[2, a]
-            )
+            out[i, a] = inverse0 * gradients[0, a] + inverse1 * gradients[1, a] + inverse2 * gradients[2, a]
 
 
 @njit(cache=True, parallel=True, fastmath=_FAST)
@@ -85,6 +89,27 @@ def element_forces(
                         pressure_operator[e, m, i, a] += weight * g[i, a]
 
 
+@njit(cache=True, parallel=True, fastmath=_FAST)
+def add_pressure_forces(
+    forces: FloatArray, pressure: FloatArray, pressure_operator: FloatArray, total: FloatArray
+) -> None:
+    """Add the forces of the solid's own pressure to others.
+
+    Parameters
+    ----------
+    forces, total : array, shape (n_elements, 3, n_nodes)
+        The sum is written to the second, which may be the first.
+    pressure : array, shape (n_elements, n_modes)
+    pressure_operator : array, shape (n_elements, n_modes, 3, n_nodes)
+    """
+    for e in prange(len(forces)):
+        for i in range(3):
+            for a in range(forces.shape[2]):
+                total[e, i, a] = forces[e, i, a]
+                for m in range(pressure.shape[1]):
+                    total[e, i, a] += pressure[e, m] * pressure_operator[e, m, i, a]
+
+
 @njit(cache=True, fastmath=_FAST)
 def _product_with_moduli(
     i: int,
@@ -135,14 +160,13 @@ def _element_tangent(
 ) -> None:
     """Integrate one element's tangent; see `element_tangents`.
 
-    `g`, (n_points, 3, n_padded), is scratch; both it and `tiles`, (6, n_nodes, n_padded), have rows filled
-    up to whole vectors of the processor, so that the loops over them have no remainder.
+    `g`, (n_points + 1, 3, n_padded), is scratch; both it and `tiles`, (6, n_nodes, n_padded), come from
+    `_aligned` and have rows filled up to whole vectors of the processor, so that no loop has a remainder.
     """
     n_points, _, n_nodes = gradients.shape
     n_padded = tiles.shape[2]
-    t = np.empty((3, n_padded))
+    t = g[n_points]
     p = np.zeros(n_points)
-    operator = np.zeros(n_padded)
     for q in range(n_points):
         _spatial_gradients(F[q], J[q], gradients[q], g[q])
         for m in range(len(pressure)):
@@ -158,11 +182,11 @@ def _element_tangent(
                 for b in range(n_padded):
                     tile[a, b] += g0 * t[0, b] + g1 * t[1, b] + g2 * t[2, b]
         for m in range(len(pressure)):
-            operator[:n_nodes] = pressure_operator[m, j]
+            t[0, :n_nodes] = pressure_operator[m, j]
             for a in range(n_nodes):
                 factor = bulk_modulus * pressure_operator[m, i, a]
                 for b in range(n_padded):
-                    tile[a, b] += factor * operator[b]
+                    tile[a, b] += factor * t[0, b]
 
 
 @njit(cache=True, parallel=True, fastmath=_FAST)
@@ -195,8 +219,8 @@ def element_tangents(
     n_elements, n_points, _, n_nodes = gradients.shape
     n_padded = (n_nodes + 7) // 8 * 8
     for e in prange(n_elements):
-        g = np.zeros((n_points, 3, n_padded))
-        tiles = np.empty((6, n_nodes, n_padded))
+        g = _aligned(n_points + 1, 3, n_padded)
+        tiles = _aligned(6, n_nodes, n_padded)
         _element_tangent(
             gradients[e],
             volumes[e],
@@ -255,8 +279,8 @@ def add_element_tangents(
     for parity in range(2):
         for half in prange((n_slabs + 1 - parity) // 2):
             slab = 2 * half + parity
-            g = np.zeros((n_points, 3, n_padded))
-            tiles = np.empty((6, n_nodes, n_padded))
+            g = _aligned(n_points + 1, 3, n_padded)
+            tiles = _aligned(6, n_nodes, n_padded)
             for position in range(slab_starts[slab], slab_starts[slab + 1]):
                 e = slab_order[position]
                 _element_tangent(

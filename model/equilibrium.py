@@ -19,7 +19,7 @@ from .constitutive import (
 )
 from .element_geometry import ElementGeometry, element_geometry
 from .element_integrals import force_integrals, volumetric_energy
-from .element_kernels import add_element_tangents
+from .element_kernels import add_element_tangents, add_pressure_forces
 from .elements import FloatArray, IntArray, reference_element
 from .hex_mesh import BoolArray, HexMesh
 from .materials.solid import SolidMaterial
@@ -118,8 +118,11 @@ class Equilibrium:
         forces, dilatation, operator = force_integrals(self.geometry, kinematics, response.stress)
         projected = self.bulk_modulus_MPa[:, None] * dilatation
         external = load.gravity * self._weight + load.gas_pressure_MPa * self.unit_pressure_forces(state)
-        condensed = self._scatter(forces + np.einsum("em,emia->eia", projected, operator)) - external
-        mixed = self._scatter(forces + np.einsum("em,emia->eia", state.pressure, operator)) - external
+        under_pressure = np.empty_like(forces)
+        add_pressure_forces(forces, projected, operator, under_pressure)
+        condensed = self._scatter(under_pressure) - external
+        add_pressure_forces(forces, state.pressure, operator, under_pressure)
+        mixed = self._scatter(under_pressure) - external
         return Balance(
             condensed=condensed,
             mixed=mixed,
@@ -178,7 +181,8 @@ class Equilibrium:
         if tangent_at is balance:
             return balance.condensed[self.is_free]
         lacking = balance.projected_pressure - state.pressure
-        forces = np.einsum("em,emia->eia", lacking, tangent_at.pressure_operator)
+        forces = np.zeros((len(lacking), *tangent_at.pressure_operator.shape[2:]))
+        add_pressure_forces(forces, lacking, tangent_at.pressure_operator, forces)
         return (balance.mixed + self._scatter(forces))[self.is_free]
 
     def update(

@@ -97,17 +97,12 @@ def fibre_response(fibre: SlackFibre, F: FloatArray, tension: FloatArray | None)
     return FibreResponse(direction, stretch, fibre.tension(point) + stiffness * (stretch - point), stiffness)
 
 
-def add_fibres(response: FibreResponse, stress: FloatArray, moduli: FloatArray) -> None:
-    """Add a family's share to Kirchhoff stress, (n, n_points, 6), and moduli, (n, n_points, 6, 6)."""
-    per_stretch = (response.tension / response.stretch).ravel()
-    curvature = (response.stiffness.ravel() - per_stretch) / response.stretch.ravel() ** 2
-    add_fibre(
-        response.direction.reshape(-1, 3),
-        per_stretch,
-        curvature,
-        stress.reshape(-1, 6),
-        moduli.reshape(-1, 6, 6),
-    )
+def add_fibres(family: FibreFamily, stress: FloatArray, moduli: FloatArray) -> None:
+    """Add a family's share to all elements' Kirchhoff stress, (n_elements, n_points, 6), and moduli."""
+    response = family.response
+    per_stretch = response.tension / response.stretch
+    curvature = (response.stiffness - per_stretch) / response.stretch**2
+    add_fibre(family.elements, response.direction, per_stretch, curvature, stress, moduli)
 
 
 def _stretch_at(fibre: SlackFibre, tension: FloatArray) -> FloatArray:

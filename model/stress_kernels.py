@@ -119,33 +119,43 @@ def deformation(
 
 
 @njit(cache=True, parallel=True, fastmath=_FAST)
-def principal_stress(directions: FloatArray, first: FloatArray, stress: FloatArray) -> None:
+def principal_stress(
+    elements: IntArray, directions: FloatArray, first: FloatArray, stress: FloatArray
+) -> None:
     """Assemble the isochoric Kirchhoff stress from the law's first derivatives.
 
     Parameters
     ----------
-    directions : array, shape (n, 3, 3)
-    first : array, shape (n, 3)
+    elements : array, shape (n,)
+        Those to assemble it for.
+    directions : array, shape (n_elements, n_points, 3, 3)
+    first : array, shape (n, n_points, 3)
         Derivatives of the energy with respect to the isochoric log stretches.
-    stress : array, shape (n, 6)
+    stress : array, shape (n_elements, n_points, 6)
         Written.
     """
-    for n in prange(len(first)):
-        mean = (first[n, 0] + first[n, 1] + first[n, 2]) / 3.0
-        v = directions[n]
-        for i in range(3):
-            j = (i + 1) % 3
-            stress[n, i] = 0.0
-            stress[n, 3 + i] = 0.0
-            for k in range(3):
-                stress[n, i] += (first[n, k] - mean) * v[i, k] * v[i, k]
-                # 12, 23, 31 in turn: the places of 12, 23, 13
-                stress[n, 3 + i] += (first[n, k] - mean) * v[i, k] * v[j, k]
+    for n in prange(len(elements)):
+        for q in range(first.shape[1]):
+            f, v, s = first[n, q], directions[elements[n], q], stress[elements[n], q]
+            mean = (f[0] + f[1] + f[2]) / 3.0
+            for i in range(3):
+                j = (i + 1) % 3
+                s[i] = 0.0
+                s[3 + i] = 0.0
+                for k in range(3):
+                    s[i] += (f[k] - mean) * v[i, k] * v[i, k]
+                    # 12, 23, 31 in turn: the places of 12, 23, 13
+                    s[3 + i] += (f[k] - mean) * v[i, k] * v[j, k]
 
 
 @njit(cache=True, parallel=True, fastmath=_FAST)
 def principal_moduli(
-    directions: FloatArray, log_stretch: FloatArray, first: FloatArray, second: FloatArray, moduli: FloatArray
+    elements: IntArray,
+    directions: FloatArray,
+    log_stretch: FloatArray,
+    first: FloatArray,
+    second: FloatArray,
+    moduli: FloatArray,
 ) -> None:
     r"""Assemble the isochoric spatial moduli (Lie derivative of the Kirchhoff stress).
 
@@ -158,59 +168,76 @@ def principal_moduli(
 
     Parameters
     ----------
-    directions : array, shape (n, 3, 3)
-    log_stretch : array, shape (n, 3)
-    first, second : array, shape (n, 3) and (n, 3, 3)
+    elements : array, shape (n,)
+        Those to assemble them for.
+    directions : array, shape (n_elements, n_points, 3, 3)
+    log_stretch : array, shape (n_elements, n_points, 3)
+    first, second : array, shape (n, n_points, 3) and (n, n_points, 3, 3)
         The law's derivatives with respect to the isochoric log stretches.
-    moduli : array, shape (n, 6, 6)
+    moduli : array, shape (n_elements, n_points, 6, 6)
         Written.
     """
-    for n in prange(len(first)):
-        tau = np.empty(3)
-        hessian = np.empty((3, 3))
-        dyads = np.empty((6, 6))
-        mean = (first[n, 0] + first[n, 1] + first[n, 2]) / 3.0
-        grand = 0.0
-        for i in range(3):
-            tau[i] = first[n, i] - mean
-            for j in range(3):
-                grand += second[n, i, j] / 9.0
-        for i in range(3):
-            row = (second[n, i, 0] + second[n, i, 1] + second[n, i, 2]) / 3.0
-            for j in range(3):
-                column = (second[n, 0, j] + second[n, 1, j] + second[n, 2, j]) / 3.0
-                hessian[i, j] = second[n, i, j] - row - column + grand
-        v = directions[n]
-        for k in range(6):
-            p, q = k % 3, (k % 3 + k // 3) % 3
-            for i in range(3):
-                j = (i + 1) % 3
-                dyads[k, i] = v[i, p] * v[i, q]
-                dyads[k, 3 + i] = 0.5 * (v[i, p] * v[j, q] + v[j, p] * v[i, q])
-        for r in range(6):
-            for s in range(6):
-                moduli[n, r, s] = 0.0
-        for i in range(3):
-            for j in range(3):
-                factor = hessian[i, j] - (2.0 * tau[i] if i == j else 0.0)
-                for r in range(6):
-                    for s in range(6):
-                        moduli[n, r, s] += factor * dyads[i, r] * dyads[j, s]
+    for n in prange(len(elements)):
+        e = elements[n]
+        scratch = np.empty((16, 6))
+        for q in range(first.shape[1]):
+            _principal_moduli(
+                directions[e, q], log_stretch[e, q], first[n, q], second[n, q], scratch, moduli[e, q]
+            )
+
+
+@njit(cache=True, fastmath=_FAST)
+def _principal_moduli(
+    v: FloatArray,
+    log_stretch: FloatArray,
+    first: FloatArray,
+    second: FloatArray,
+    scratch: FloatArray,
+    moduli: FloatArray,
+) -> None:
+    """Assemble the moduli at one point."""
+    dyads, products, hessian, tau = scratch[:6], scratch[6:12], scratch[12:15], scratch[15]
+    mean = (first[0] + first[1] + first[2]) / 3.0
+    grand = 0.0
+    for i in range(3):
+        tau[i] = first[i] - mean
+        for j in range(3):
+            grand += second[i, j] / 9.0
+    for i in range(3):
+        row = (second[i, 0] + second[i, 1] + second[i, 2]) / 3.0
+        for j in range(3):
+            column = (second[0, j] + second[1, j] + second[2, j]) / 3.0
+            hessian[i, j] = second[i, j] - row - column + grand
+    for k in range(6):
+        p, q = k % 3, (k % 3 + k // 3) % 3
         for i in range(3):
             j = (i + 1) % 3
-            gap = log_stretch[n, i] - log_stretch[n, j]
-            if abs(gap) < COALESCENCE:
-                shear = 0.25 * (hessian[i, i] + hessian[j, j]) - 0.5 * hessian[i, j] - 0.5 * (tau[i] + tau[j])
-            else:
-                ratio = np.exp(-2.0 * gap)
-                shear = (tau[i] * ratio - tau[j]) / (1.0 - ratio)
-            for r in range(6):
-                for s in range(6):
-                    moduli[n, r, s] += 4.0 * shear * dyads[3 + i, r] * dyads[3 + i, s]
+            dyads[k, i] = v[i, p] * v[i, q]
+            dyads[k, 3 + i] = 0.5 * (v[i, p] * v[j, q] + v[j, p] * v[i, q])
+    for i in range(3):
+        j = (i + 1) % 3
+        gap = log_stretch[i] - log_stretch[j]
+        if abs(gap) < COALESCENCE:
+            shear = 0.25 * (hessian[i, i] + hessian[j, j]) - 0.5 * hessian[i, j] - 0.5 * (tau[i] + tau[j])
+        else:
+            ratio = np.exp(-2.0 * gap)
+            shear = (tau[i] * ratio - tau[j]) / (1.0 - ratio)
+        for s in range(6):
+            products[i, s] = (
+                hessian[i, 0] * dyads[0, s] + hessian[i, 1] * dyads[1, s] + hessian[i, 2] * dyads[2, s]
+            ) - 2.0 * tau[i] * dyads[i, s]
+            products[3 + i, s] = 4.0 * shear * dyads[3 + i, s]
+    for r in range(6):
+        for s in range(6):
+            total = 0.0
+            for k in range(6):
+                total += dyads[k, r] * products[k, s]
+            moduli[r, s] = total
 
 
 @njit(cache=True, parallel=True, fastmath=_FAST)
 def add_fibre(
+    elements: IntArray,
     spatial_direction: FloatArray,
     stress_factor: FloatArray,
     moduli_factor: FloatArray,
@@ -221,16 +248,19 @@ def add_fibre(
 
     Parameters
     ----------
-    spatial_direction : array, shape (n, 3)
-    stress_factor, moduli_factor : array, shape (n,)
-    stress : array, shape (n, 6)
-    moduli : array, shape (n, 6, 6), or (0, 6, 6) where they are not wanted
+    elements : array, shape (n,)
+        Those that the fibres run through.
+    spatial_direction : array, shape (n, n_points, 3)
+    stress_factor, moduli_factor : array, shape (n, n_points)
+    stress : array, shape (n_elements, n_points, 6)
+    moduli : array, shape (n_elements, n_points, 6, 6)
     """
-    for n in prange(len(stress_factor)):
-        a = spatial_direction[n]
-        for r in range(6):
-            first = a[r % 3] * a[(r + r // 3) % 3]
-            stress[n, r] += stress_factor[n] * first
-            if len(moduli) > 0:
+    for n in prange(len(elements)):
+        e = elements[n]
+        for p in range(stress_factor.shape[1]):
+            a = spatial_direction[n, p]
+            for r in range(6):
+                first = a[r % 3] * a[(r + r // 3) % 3]
+                stress[e, p, r] += stress_factor[n, p] * first
                 for s in range(6):
-                    moduli[n, r, s] += moduli_factor[n] * first * a[s % 3] * a[(s + s // 3) % 3]
+                    moduli[e, p, r, s] += moduli_factor[n, p] * first * a[s % 3] * a[(s + s // 3) % 3]

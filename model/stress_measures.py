@@ -7,26 +7,22 @@ from numba import njit, prange
 
 from .elements import FloatArray, IntArray
 
-_VOIGT = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
 _FAST = {"contract", "reassoc", "nsz", "arcp"}
 
 
 @njit(cache=True, fastmath=_FAST)
 def _congruence(A: FloatArray, symmetric: FloatArray, out: FloatArray) -> None:
     """Write A · symmetric · Aᵀ, six components each."""
-    half = np.empty((3, 3))
-    for i in range(3):
-        for j in range(3):
-            half[i, j] = (
-                A[i, 0] * symmetric[_VOIGT[0, j]]
-                + A[i, 1] * symmetric[_VOIGT[1, j]]
-                + A[i, 2] * symmetric[_VOIGT[2, j]]
-            )
+    s = symmetric
     for i in range(3):
         j = (i + 1) % 3
-        out[i] = half[i, 0] * A[i, 0] + half[i, 1] * A[i, 1] + half[i, 2] * A[i, 2]
+        # row i of A · symmetric
+        half0 = A[i, 0] * s[0] + A[i, 1] * s[3] + A[i, 2] * s[5]
+        half1 = A[i, 0] * s[3] + A[i, 1] * s[1] + A[i, 2] * s[4]
+        half2 = A[i, 0] * s[5] + A[i, 1] * s[4] + A[i, 2] * s[2]
+        out[i] = half0 * A[i, 0] + half1 * A[i, 1] + half2 * A[i, 2]
         # 12, 23, 31 in turn: the places of 12, 23, 13
-        out[3 + i] = half[i, 0] * A[j, 0] + half[i, 1] * A[j, 1] + half[i, 2] * A[j, 2]
+        out[3 + i] = half0 * A[j, 0] + half1 * A[j, 1] + half2 * A[j, 2]
 
 
 @njit(cache=True, fastmath=_FAST)

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .elements import FloatArray
+from .elements import FloatArray, IntArray
 
 GUARDED_BELOW = 0.6
 """J₀. The least J of the default actuator's ramps to 65 kPa is 0.64, so that they do not meet the guard."""
@@ -33,19 +33,32 @@ def guard_energy(J: FloatArray, shear_modulus_MPa: float) -> FloatArray:
     return shear_modulus_MPa * _STRENGTH / 3.0 * np.abs(_excess(J)) ** 3
 
 
-def add_guard(J: FloatArray, shear_modulus_MPa: float, stress: FloatArray, moduli: FloatArray) -> None:
-    """Add the guard's share to Kirchhoff stress, (n, 6), and spatial moduli, (n, 6, 6), at ratios J, (n,).
+def add_guard(
+    elements: IntArray, J: FloatArray, shear_modulus_MPa: float, stress: FloatArray, moduli: FloatArray
+) -> None:
+    """Add the guard's share, with e = ln J a stress U'(e) I and moduli U''(e) I⊗I − 2 U'(e) 𝕀.
 
-    With e = ln J the stress is U'(e) I and the moduli are U''(e) I⊗I − 2 U'(e) 𝕀.
+    Parameters
+    ----------
+    elements : array, shape (n,)
+        Those to add it for.
+    J : array, shape (n_elements, n_points)
+        Volume ratios.
+    shear_modulus_MPa : float
+    stress : array, shape (n_elements, n_points, 6)
+        Kirchhoff stress, added to.
+    moduli : array, shape (n_elements, n_points, 6, 6)
+        Spatial moduli, added to.
     """
-    points = np.flatnonzero(J < GUARDED_BELOW)
-    if len(points) == 0:
+    rows, points = np.nonzero(J[elements] < GUARDED_BELOW)
+    if len(rows) == 0:
         return
-    excess = _excess(J[points])
+    owners = elements[rows]
+    excess = _excess(J[owners, points])
     slope = -shear_modulus_MPa * _STRENGTH * excess**2
     curvature = -2.0 * shear_modulus_MPa * _STRENGTH * excess
-    stress[points, :3] += slope[:, None]
-    moduli[points] += curvature[:, None, None] * _ALL_PAIRS - 2.0 * slope[:, None, None] * _IDENTITY
+    stress[owners, points, :3] += slope[:, None]
+    moduli[owners, points] += curvature[:, None, None] * _ALL_PAIRS - 2.0 * slope[:, None, None] * _IDENTITY
 
 
 def _excess(J: FloatArray) -> FloatArray:

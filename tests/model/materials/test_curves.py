@@ -65,10 +65,13 @@ def test_stress_and_tangent_of_the_elements_agree_with_the_curves(name, mode):
     log_stretch = MODES[mode].log_stretch(STRETCHES)
     first, second = LAWS[name].derivatives(log_stretch)
     turn, _ = np.linalg.qr(np.arange(9.0).reshape(3, 3) + np.eye(3) * [2.0, -1.0, 3.0])
-    directions = np.tile(turn, (len(STRETCHES), 1, 1))
-    stress, moduli = np.empty((len(STRETCHES), 6)), np.empty((len(STRETCHES), 6, 6))
-    principal_stress(directions, first, stress)
-    principal_moduli(directions, log_stretch, first, second, moduli)
+    # one element, the stretches at its points
+    directions = np.tile(turn, (1, len(STRETCHES), 1, 1))
+    stress, moduli = np.empty((1, len(STRETCHES), 6)), np.empty((1, len(STRETCHES), 6, 6))
+    element = np.array([0])
+    principal_stress(element, directions, first[None], stress)
+    principal_moduli(element, directions, log_stretch[None], first[None], second[None], moduli)
+    stress, moduli = stress[0], moduli[0]
     pull, free = (np.outer(turn[:, axis], turn[:, axis]) for axis in (0, 2))
     kirchhoff = _dot(stress, _voigt(pull - free))
     expected = np.array([textbook_stress(name, stretch, mode) for stretch in STRETCHES])

@@ -20,6 +20,9 @@ Division = int | tuple[float, ...]
 
 _VOID = -1
 
+_SAME_LINE_MM = 0.25
+"""Grid lines nearer than this are one: thinner elements would spoil the tangent, moulds are no truer."""
+
 
 @dataclass(frozen=True)
 class MeshLevel:
@@ -29,7 +32,7 @@ class MeshLevel:
     ----------
     order : int
         1 (Q1/P0) or 2 (Q2/P1-discontinuous).
-    composite, strip_a, channel, void, roof, strip_b : int
+    composite, strip_a, floor, channel, void, roof, strip_b : int
         Across the height: layers of elements; ``void`` counts those between channel and roof.
     channel_width, void_width, side_wall : int
         Across the half width.
@@ -44,6 +47,7 @@ class MeshLevel:
     order: int
     composite: Division = 1
     strip_a: Division = 1
+    floor: Division = 1
     channel: Division = 1
     void: Division = 1
     roof: Division = 1
@@ -86,7 +90,8 @@ def actuator_mesh(geometry: ActuatorGeometry, *, level: str) -> HexMesh:
     Returns
     -------
     HexMesh
-        Regions `REGIONS`; node sets ``clamp`` (y = 0) and ``symmetry`` (z = 0).
+        Regions `REGIONS`; node sets ``clamp`` (y = 0, and the outer faces as far as the clamp holds them) and
+        ``symmetry`` (z = 0).
 
     Raises
     ------
@@ -116,7 +121,7 @@ def mesh_at_level(geometry: ActuatorGeometry, level: MeshLevel) -> HexMesh:
         mapping=partial(_drawn_to_corners, geometry=geometry, level=level),
     )
     sets = {
-        "clamp": np.flatnonzero(np.isclose(mesh.nodes_mm[:, 1], 0.0)),
+        "clamp": np.flatnonzero(_is_clamped(mesh.nodes_mm, upper, _clamped_to_mm(geometry, grid.y_mm))),
         "symmetry": np.flatnonzero(np.isclose(mesh.nodes_mm[:, 2], 0.0)),
     }
     return replace(mesh, node_sets=sets)
@@ -126,6 +131,7 @@ def _grid(geometry: ActuatorGeometry, level: MeshLevel) -> TensorGrid:
     across = [
         (geometry.composite_mm, level.composite),
         (geometry.strip_a_mm, level.strip_a),
+        (geometry.void_floor_mm, level.floor),
         (geometry.channel_height_mm, level.channel),
         (geometry.void_depth_mm - geometry.channel_height_mm, level.void),
         (geometry.roof_mm, level.roof),
@@ -144,13 +150,33 @@ def _grid(geometry: ActuatorGeometry, level: MeshLevel) -> TensorGrid:
         along += [(begin - previous_end, level.wall_length), (end - begin, level.void_length)]
         previous_end = end
     along.append((geometry.length_mm - previous_end, level.wall_length))
-    return TensorGrid(_lines(across), _lines(along), _lines(wide))
+    return TensorGrid(_lines(across), _with_clamp_line(_lines(along), geometry), _lines(wide))
+
+
+def _with_clamp_line(lines_mm: FloatArray, geometry: ActuatorGeometry) -> FloatArray:
+    """Add a grid line where the clamp ends, unless there is one as near as `_SAME_LINE_MM`."""
+    end = geometry.clamp_length_mm
+    if np.abs(lines_mm - end).min() <= _SAME_LINE_MM:
+        return lines_mm
+    return np.sort(np.append(lines_mm, end))
+
+
+def _clamped_to_mm(geometry: ActuatorGeometry, lines_mm: FloatArray) -> float:
+    """Return the grid line that stands for the clamp's end."""
+    return float(lines_mm[np.abs(lines_mm - geometry.clamp_length_mm).argmin()])
+
+
+def _is_clamped(nodes_mm: FloatArray, upper_mm: FloatArray, end_mm: float) -> BoolArray:
+    """Nodes of the base's end face, and those of the outer faces up to the clamp's end."""
+    x, y, z = nodes_mm.T
+    is_outside = np.isclose(x, 0.0) | np.isclose(x, upper_mm[0]) | np.isclose(z, upper_mm[2])
+    return np.isclose(y, 0.0) | (is_outside & (y <= end_mm + 1e-9) & (end_mm > 0.0))
 
 
 def _drawn_to_corners(nodes: FloatArray, *, geometry: ActuatorGeometry, level: MeshLevel) -> FloatArray:
     """Move the nodes beside the voids towards roof and side wall."""
     x, y, z = nodes.T
-    base = geometry.body_base_mm
+    base = geometry.void_base_mm
     x = _drawn(x, base + geometry.channel_height_mm, base + geometry.void_depth_mm, level.void_middle)
     z = _drawn(z, 0.5 * geometry.channel_width_mm, 0.5 * geometry.void_width_mm, level.void_width_middle)
     return np.column_stack([x, y, z])
@@ -181,13 +207,14 @@ def _regions(geometry: ActuatorGeometry, centres: FloatArray) -> IntArray:
     in_void_span = np.zeros(len(y), dtype=bool)
     for begin, end in geometry.void_spans_mm():
         in_void_span |= (y > begin) & (y < end)
-    in_voids = in_void_span & (z < 0.5 * geometry.void_width_mm) & (x < base + geometry.void_depth_mm)
+    bottom = geometry.void_base_mm
+    in_voids = in_void_span & (z < 0.5 * geometry.void_width_mm) & (x < bottom + geometry.void_depth_mm)
     first, last = geometry.void_spans_mm()[0][0], geometry.void_spans_mm()[-1][1]
     in_channel = (
         (y > first)
         & (y < last)
         & (z < 0.5 * geometry.channel_width_mm)
-        & (x < base + geometry.channel_height_mm)
+        & (x < bottom + geometry.channel_height_mm)
     )
-    region[(x > base) & (in_voids | in_channel)] = _VOID
+    region[(x > bottom) & (in_voids | in_channel)] = _VOID
     return region

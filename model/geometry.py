@@ -7,6 +7,8 @@ from itertools import pairwise
 
 from spavision.errors import InputError
 
+_MAY_BE_NONE = ("strip_b_mm", "void_floor_mm", "clamp_length_mm", "marker_from_tip_mm", "marker_from_roof_mm")
+
 
 @dataclass(frozen=True)
 class ActuatorGeometry:
@@ -14,7 +16,7 @@ class ActuatorGeometry:
 
     Published (Ellis and co-workers, bimodal actuator): length 157.5, width 15, height 17.5, 15 connected
     voids, composite 5, strip A 1, strip B 1 to 3. Assumed: the pitch (length over voids), all walls, the
-    channel, and that the voids open towards region A, where strip A closes them.
+    channel, and that the voids open towards region A, where strip A closes them (no floor).
 
     The axes: x from the composite's outer face across the height (positive towards region B, the
     direction of the first bending mode), y along the actuator from the clamp to the tip, z across the
@@ -30,10 +32,16 @@ class ActuatorGeometry:
     wall_between_voids_mm, side_wall_mm, roof_mm, end_wall_mm : float
         Body walls; the roof is the wall on the side of region B. The first and last void are shortened
         by what the end wall is thicker than half the wall between voids.
+    void_floor_mm : float
+        Body silicone between the voids and strip A; 0 for voids that open towards strip A. The channel lies
+        on it.
     strip_a_mm, composite_mm, strip_b_mm : float
         Thickness of the layers; ``strip_b_mm = 0`` leaves strip B out.
     channel_width_mm, channel_height_mm : float
-        Of the channel that connects the voids along the middle plane, on strip A.
+        Of the channel that connects the voids along the middle plane, on the side of strip A.
+    clamp_length_mm : float
+        Length of the base whose outer faces the clamp holds; 0 if it holds the base's end face alone. It is
+        part of the actuator's length.
     marker_from_tip_mm : float
         Distance of the tracked point, on the side face, from the tip's end face.
     marker_from_roof_mm : float
@@ -53,11 +61,13 @@ class ActuatorGeometry:
     side_wall_mm: float = 2.5
     roof_mm: float = 2.5
     end_wall_mm: float = 2.5
+    void_floor_mm: float = 0.0
     strip_a_mm: float = 1.0
     composite_mm: float = 5.0
     strip_b_mm: float = 3.0
     channel_width_mm: float = 2.0
     channel_height_mm: float = 2.0
+    clamp_length_mm: float = 0.0
     marker_from_tip_mm: float = 5.0
     marker_from_roof_mm: float = 8.75
 
@@ -71,11 +81,18 @@ class ActuatorGeometry:
         self._keep_below("2 × side_wall_mm", 2.0 * self.side_wall_mm, "width_mm", self.width_mm)
         self._keep_below("roof_mm", self.roof_mm, "height_mm", self.height_mm)
         self._keep_below(
+            "void_floor_mm", self.void_floor_mm, "height_mm − roof_mm", self.height_mm - self.roof_mm
+        )
+        self._keep_below(
             "channel_width_mm", self.channel_width_mm, "width_mm − 2 × side_wall_mm", self.void_width_mm
         )
         self._keep_below(
-            "channel_height_mm", self.channel_height_mm, "height_mm − roof_mm", self.void_depth_mm
+            "channel_height_mm",
+            self.channel_height_mm,
+            "height_mm − roof_mm − void_floor_mm",
+            self.void_depth_mm,
         )
+        self._keep_below("clamp_length_mm", self.clamp_length_mm, "the actuator's length", self.length_mm)
         self._keep_below(
             "marker_from_tip_mm", self.marker_from_tip_mm, "the actuator's length", self.length_mm
         )
@@ -93,13 +110,18 @@ class ActuatorGeometry:
 
     @property
     def void_depth_mm(self) -> float:
-        """Depth of a void, from strip A to the roof."""
-        return self.height_mm - self.roof_mm
+        """Depth of a void, from its floor or strip A to the roof."""
+        return self.height_mm - self.roof_mm - self.void_floor_mm
 
     @property
     def body_base_mm(self) -> float:
         """The x coordinate at which the body begins, on strip A."""
         return self.composite_mm + self.strip_a_mm
+
+    @property
+    def void_base_mm(self) -> float:
+        """The x coordinate at which voids and channel begin."""
+        return self.body_base_mm + self.void_floor_mm
 
     @property
     def marker_position_mm(self) -> tuple[float, float, float]:
@@ -131,7 +153,7 @@ class ActuatorGeometry:
     def _check_ranges(self) -> None:
         for one in fields(self):
             value = getattr(self, one.name)
-            low = 0.0 if one.name in ("strip_b_mm", "marker_from_tip_mm", "marker_from_roof_mm") else 0.1
+            low = 0.0 if one.name in _MAY_BE_NONE else 0.1
             high = 100.0 if one.name == "void_count" else 1000.0
             if one.name == "void_count":
                 low = 1.0

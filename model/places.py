@@ -41,9 +41,14 @@ def _body_part(geometry: ActuatorGeometry, x_mm: float, y_mm: float) -> str:
         if y_mm < begin:
             return f"wall between voids {number - 1} and {number}"
         if y_mm <= end:
-            is_roof = x_mm > geometry.body_base_mm + geometry.void_depth_mm
-            return f"{'roof over' if is_roof else 'side wall of'} void {number}"
+            return f"{_around_void(geometry, x_mm)} void {number}"
     raise ValueError(f"y = {y_mm:g} mm is outside the actuator")
+
+
+def _around_void(geometry: ActuatorGeometry, x_mm: float) -> str:
+    if x_mm < geometry.void_base_mm:
+        return "floor of"
+    return "roof over" if x_mm > geometry.void_base_mm + geometry.void_depth_mm else "side wall of"
 
 
 def _beside(geometry: ActuatorGeometry, y_mm: float) -> str:

@@ -123,6 +123,12 @@ class ActuatorSection(Section):
     side_wall_mm: PositiveLength = Field(2.5, description="mm (assumed)")
     roof_mm: PositiveLength = Field(2.5, description="mm (assumed)")
     end_wall_mm: PositiveLength = Field(2.5, description="mm (assumed)")
+    void_floor_mm: float = Field(
+        0.0,
+        ge=0,
+        le=20,
+        description="body between voids and strip A, mm; 0: voids open to it (assumed)",
+    )
     strip_a_mm: PositiveLength = Field(1.0, description="strip between voids and composite, mm")
     composite_mm: PositiveLength = Field(5.0, description="thickness of the bilinear composite, mm")
     strip_b_mm: float = Field(
@@ -131,6 +137,9 @@ class ActuatorSection(Section):
     channel_width_mm: PositiveLength = Field(2.0, description="channel that connects the voids, mm (assumed)")
     channel_height_mm: PositiveLength = Field(
         2.0, description="channel that connects the voids, mm (assumed)"
+    )
+    clamp_length_mm: float = Field(
+        0.0, ge=0, le=500, description="length of the base held in the clamp, mm; 0: its end face (assumed)"
     )
 
     body_stiffness: Stiffness = Field(

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from spavision.errors import InputError
 from spavision.model.elements import FloatArray
 from spavision.model.geometry import ActuatorGeometry
 from spavision.model.newton import NewtonSettings, NotConvergedError
@@ -74,9 +75,14 @@ def simulate_reduced(
     Raises
     ------
     InputError
-        If pressures, crimp ratio, material names or mesh level are unusable.
+        If pressures, crimp ratio, material names or mesh level are unusable, or the clamp holds a length.
     """
     settings, pressures_kPa = settings or SimulationSettings(), checked_pressures(pressures_kPa)
+    if geometry.clamp_length_mm > 0.0:
+        raise InputError(
+            f"clamp_length_mm is {geometry.clamp_length_mm:g}, which the reduced model does not know; "
+            "take the full model, or 0"
+        )
     with one_thread():
         return _inflated(geometry, crimp_ratio, pressures_kPa, settings)
 

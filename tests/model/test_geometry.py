@@ -14,6 +14,7 @@ from spavision.model.geometry import ActuatorGeometry
 from spavision.model.observe import locate
 
 SMALL = ActuatorGeometry(void_count=3)
+CLOSED_AND_CLAMPED = ActuatorGeometry(void_count=3, void_floor_mm=1.5, clamp_length_mm=7.0)
 
 
 def test_published_dimensions() -> None:
@@ -23,21 +24,27 @@ def test_published_dimensions() -> None:
     assert geometry.gas_volume_mm3() == pytest.approx((13 * 8 + 2 * 6.75) * 150 + 14 * 2.5 * 4)
 
 
+def test_a_floor_takes_from_the_voids_but_not_from_the_channel() -> None:
+    geometry = ActuatorGeometry(void_floor_mm=1.5)
+    assert geometry.gas_volume_mm3() == pytest.approx((13 * 8 + 2 * 6.75) * 10 * 13.5 + 14 * 2.5 * 4)
+
+
 @pytest.mark.parametrize("level", MESH_LEVELS)
-def test_mesh_volumes(level: str) -> None:
-    mesh = actuator_mesh(SMALL, level=level)
+@pytest.mark.parametrize("shape", [SMALL, CLOSED_AND_CLAMPED], ids=["open", "closed"])
+def test_mesh_volumes(level: str, shape: ActuatorGeometry) -> None:
+    mesh = actuator_mesh(shape, level=level)
     volume = element_geometry(mesh).volumes.sum(axis=1)
-    base = SMALL.length_mm * SMALL.width_mm / 2
+    base = shape.length_mm * shape.width_mm / 2
     expected = {
         "composite": 5.0 * base,
         "strip A": 1.0 * base,
-        "body": 17.5 * base - 0.5 * SMALL.gas_volume_mm3(),
+        "body": 17.5 * base - 0.5 * shape.gas_volume_mm3(),
         "strip B": 3.0 * base,
     }
     for code, name in enumerate(REGIONS):
         assert volume[mesh.region == code].sum() == pytest.approx(expected[name], rel=1e-12)
     gas = Cavity(mesh.cavity_faces, mesh.order).volume(mesh.nodes_mm)
-    assert 2.0 * gas == pytest.approx(SMALL.gas_volume_mm3(), rel=1e-12)
+    assert 2.0 * gas == pytest.approx(shape.gas_volume_mm3(), rel=1e-12)
 
 
 def test_mesh_without_strip_b() -> None:
@@ -51,6 +58,22 @@ def test_node_sets() -> None:
     assert np.all(mesh.nodes_mm[mesh.node_sets["clamp"], 1] == 0.0)
     assert np.all(mesh.nodes_mm[mesh.node_sets["symmetry"], 2] == 0.0)
     assert len(mesh.node_sets["clamp"]) == np.count_nonzero(mesh.nodes_mm[:, 1] == 0.0)
+
+
+def test_a_clamp_of_some_length_holds_the_outer_faces() -> None:
+    mesh = actuator_mesh(CLOSED_AND_CLAMPED, level="draft")
+    x, y, z = mesh.nodes_mm.T
+    held = np.zeros(len(x), dtype=bool)
+    held[mesh.node_sets["clamp"]] = True
+    outside = np.isclose(x, 0.0) | np.isclose(x, 26.5) | np.isclose(z, 7.5)
+    np.testing.assert_array_equal(held, (y == 0.0) | (outside & (y <= 7.0)))
+    assert np.isclose(y, 7.0).any()
+
+
+def test_a_clamp_that_ends_at_a_wall_adds_no_sliver() -> None:
+    at_wall = ActuatorGeometry(void_count=3, clamp_length_mm=2.4)
+    elements = [actuator_mesh(shape, level="draft").elements for shape in (at_wall, SMALL)]
+    assert len(elements[0]) == len(elements[1])
 
 
 def test_located_point_reproduces_a_linear_field() -> None:
@@ -71,6 +94,9 @@ def test_located_point_reproduces_a_linear_field() -> None:
         ({"roof_mm": 18.0}, ("roof_mm", "height_mm")),
         ({"channel_width_mm": 10.0}, ("channel_width_mm", "side_wall_mm")),
         ({"channel_height_mm": 15.0}, ("channel_height_mm", "roof_mm")),
+        ({"void_floor_mm": 15.0}, ("void_floor_mm", "roof_mm")),
+        ({"void_floor_mm": 14.0}, ("channel_height_mm", "void_floor_mm")),
+        ({"clamp_length_mm": 160.0}, ("clamp_length_mm", "length")),
         ({"end_wall_mm": 9.5}, ("end_wall_mm", "wall_between_voids_mm")),
         ({"marker_from_tip_mm": 200.0}, ("marker_from_tip_mm", "length")),
         ({"pitch_mm": -1.0}, ("pitch_mm", "expected")),

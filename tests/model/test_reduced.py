@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from spavision.errors import InputError
 from spavision.model.geometry import ActuatorGeometry
 from spavision.model.newton import NewtonSettings
 from spavision.model.outputs import mode_change
@@ -107,3 +108,10 @@ def test_weightless_actuator_of_twice_the_stiffness_needs_twice_the_pressure() -
     np.testing.assert_allclose(paths[1].ux_mm, paths[0].ux_mm, atol=1e-4)
     np.testing.assert_allclose(paths[1].uy_mm, paths[0].uy_mm, atol=1e-4)
     assert paths[0].ux_mm[-1] > 5.0
+
+
+def test_a_clamp_of_some_length_is_refused() -> None:
+    with pytest.raises(InputError, match=r"clamp_length_mm is 10.*full model"):
+        simulate_reduced(
+            ActuatorGeometry(clamp_length_mm=10.0), crimp_ratio=0.2, pressures_kPa=np.array([0.0, 5.0])
+        )

@@ -50,6 +50,11 @@ def test_places(position: tuple[float, float, float], name: str) -> None:
     assert place_name(GEOMETRY, np.array(position)).startswith(name + " at (")
 
 
+def test_place_of_a_floor() -> None:
+    closed = replace(GEOMETRY, void_floor_mm=2.0)
+    assert place_name(closed, np.array([7.0, 15.0, 0.0])).startswith("floor of void 2 at (")
+
+
 def test_a_law_unstable_in_range_is_the_cause(tmp_path: Path) -> None:
     """0.32 λ² − 0.02 λ⁵ + (0.32/λ − 0.02 λ^(−5/2))/2 vanishes at λ = 2.538: uniaxial tension."""
     path = tmp_path / "softening.toml"

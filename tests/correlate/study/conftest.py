@@ -19,6 +19,7 @@ import signal
 from pathlib import Path
 
 from spavision.correlate.study.case import CaseResult, failed
+from spavision.correlate.study.evaluate import evaluate
 
 LOG = Path({log!r})
 
@@ -34,13 +35,22 @@ def linear(case):
     return CaseResult("ok", "", ux, tuple(case.pressures_kPa), 0.0)
 
 
-def killed_once(case):
-    """The worker of the case with a wall of 3 mm is killed, the first time."""
+def kill_once(case):
+    """Kill the worker of the case with a wall of 3 mm, the first time."""
     mark = LOG / "killed"
     if case.experiment.actuator.side_wall_mm == 3.0 and not mark.exists():
         mark.touch()
         os.kill(os.getpid(), signal.SIGKILL)
+
+
+def killed_once(case):
+    kill_once(case)
     return linear(case)
+
+
+def reduced_killed_once(case):
+    kill_once(case)
+    return evaluate(case)
 
 
 def killed_always(case):
@@ -61,14 +71,14 @@ def stand_in(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     return importlib.import_module("stand_in_for_the_model")
 
 
-def wall_cases(walls: list[float]) -> list[Case]:
+def wall_cases(walls: list[float], *, pressures_kPa: tuple[float, ...] = PRESSURES) -> list[Case]:
     """Cases that differ in the side wall."""
-    nominal = Experiment()
+    nominal = Experiment().with_options({"model": {"mesh": "draft"}})
     return [
         Case(
             "reduced",
             nominal.with_options({"actuator": {"crimp_ratio": 0.2, "side_wall_mm": wall}}),
-            PRESSURES,
+            pressures_kPa,
             {"side_wall_mm": wall},
         )
         for wall in walls

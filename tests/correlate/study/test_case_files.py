@@ -32,7 +32,7 @@ def test_study_of_200_reduced_cases_loses_nothing_when_a_worker_is_killed_half_w
     stand_in: ModuleType, tmp_path: Path
 ) -> None:
     """More workers than this machine may have processors; each result is that of its own case."""
-    walls = [float(wall) for wall in (*np.linspace(2.0, 2.9, 100), 3.0, *np.linspace(3.1, 4.0, 99))]
+    walls = [float(wall) for wall in np.linspace(2.0, 4.0, 201)[:200]]
     cases = wall_cases(walls, pressures_kPa=(0.0, 1.0))
     results = finished_cases(
         CaseFolder(tmp_path / "study"),
@@ -44,7 +44,7 @@ def test_study_of_200_reduced_cases_loses_nothing_when_a_worker_is_killed_half_w
     assert (tmp_path / "killed").exists()
     assert [result.status for result in results] == ["ok"] * 200
     moved = np.array([result.ux_mm[1] for result in results])
-    assert np.abs(np.diff(moved)).max() < 0.01 * np.ptp(moved), "the tip moves less from wall to wall"
+    assert np.abs(np.diff(moved)).max() < 0.02 * np.ptp(moved), "the tip moves less from wall to wall"
     for row in (0, 100, 199):
         assert moved[row] == pytest.approx(evaluate(cases[row]).ux_mm[1], rel=1e-9)
     assert len(list((tmp_path / "study" / "cases").iterdir())) == 200

@@ -39,7 +39,7 @@ class SteppingSettings:
     easy_iterations: int = 4
     hard_iterations: int = 7
     snap_step_kPa: float = 0.1
-    largest_snap_steps: int = 120
+    largest_snap_steps: int = 200
 
 
 @dataclass(frozen=True)

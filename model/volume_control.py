@@ -32,7 +32,7 @@ class VolumeStepping:
     first_step: float = 0.05
     largest_step: float = 0.25
     smallest_step: float = 1e-3
-    largest_ratio: float = 12.0
+    largest_ratio: float = 25.0
 
 
 @dataclass(frozen=True)
@@ -207,10 +207,9 @@ def volume_ramp(
             return
         yield AcceptedStep(reached_kPa, point.result)
         before, highest_kPa = point, max(highest_kPa, reached_kPa)
-    raise RampStoppedError(
-        highest_kPa,
-        f"the pressure did not rise further up to {stepping.largest_ratio:g} times the volume at rest",
-    )
+    falls = before.gas_pressure_MPa * 1e3 < highest_kPa
+    reason = "the pressure did not rise further" if falls else "the pressures asked for were not reached"
+    raise RampStoppedError(highest_kPa, f"{reason} up to {stepping.largest_ratio:g} times the volume at rest")
 
 
 def _extrapolated(history: list[VolumePoint], volume_mm3: float) -> VolumePoint:

@@ -15,6 +15,7 @@ from .bodies import BODY, NEO_HOOKE, bulk_modulus, solid
 
 _ELASTICA = {
     1.0: (0.301721, 0.056433),
+    2.0: (0.493457, 0.160642),
     5.0: (0.713792, 0.387628),
     10.0: (0.810609, 0.554996),
 }
@@ -137,6 +138,20 @@ def _bending() -> list[Case]:
         )
         for curvature, expected in moments.items()
     ]
+    radii = {0.5: (1.572303, 2.544039), 1.0: (0.643594, 1.553774)}
+    turned = [
+        Case(
+            "15",
+            "Rivlin's bending of a block, quarter turn",
+            f"{('inner', 'outer')[which]} radius in mm at {curvature:g} rad per mm of thickness",
+            expected,
+            "closed form, incompressible",
+            3e-4,
+            lambda curvature=curvature, which=which: measure.bent_radii(curvature)[which],  # type: ignore[misc]
+        )
+        for curvature, pair in radii.items()
+        for which, expected in enumerate(pair)
+    ]
     slender = 0.05
     closing = Case(
         "18",
@@ -147,7 +162,7 @@ def _bending() -> list[Case]:
         3e-3,
         lambda: measure.bending_moment(slender, turn=np.pi) / (4.0 / 12.0 * slender),
     )
-    return [*bent, closing]
+    return [*bent, *turned, closing]
 
 
 def _torsion() -> list[Case]:

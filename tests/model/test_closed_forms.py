@@ -17,8 +17,12 @@ from .conftest import cube_mesh
 
 @pytest.mark.parametrize("order", [1, 2])
 @pytest.mark.parametrize(
-    ("stretch", "nominal_MPa", "lateral"),
-    [(1.5, 0.160353990, 0.816730215), (2.0, 0.324480727, None), (0.7, -0.187586302, None)],
+    ("stretch", "nominal_MPa", "J"),
+    [
+        (1.5, 0.160353990, 1.000572365),
+        (2.0, 0.324480727, 1.001542766),
+        (0.7, -0.187586302, 0.999687258),
+    ],
 )
 def test_uniaxial_tension(
     body_solid: SolidMaterial,
@@ -26,22 +30,41 @@ def test_uniaxial_tension(
     order: int,
     stretch: float,
     nominal_MPa: float,
-    lateral: float | None,
+    J: float,
 ) -> None:
-    """Row 2: BODY with κ = 140 MPa, ends held by rollers, sides free."""
+    """Row 2: BODY with κ = 140 MPa."""
+    body, state = stretched_cube(body_solid, order=order, stretch=stretch, settings=tight)
+    reactions = body.balance(state, Load(0.0, 0.0)).condensed
+    top = np.isclose(body.mesh.nodes_mm[:, 1], 1.0)
+    assert reactions[top, 1].sum() == pytest.approx(nominal_MPa, rel=1e-8)
+    side = np.isclose(body.mesh.nodes_mm[:, 0], 1.0)
+    lateral = 1.0 + state.displacement[side, 0]
+    np.testing.assert_allclose(stretch * lateral**2, J, rtol=1e-8)
+    if stretch == 1.5:
+        np.testing.assert_allclose(lateral, 0.816730215, rtol=1e-8)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_incompressible_cube(tight: NewtonSettings, order: int) -> None:
+    """anchors.md: pulled to twice its length the side moves in by 1 − 1/√2; κ = 10⁸ G leaves some 10⁻⁸."""
+    incompressible = SolidMaterial(Ogden((1.0,), (2.0,)), bulk_modulus_MPa=1e8, density_tonne_per_mm3=0.0)
+    body, state = stretched_cube(incompressible, order=order, stretch=2.0, settings=tight)
+    side = np.isclose(body.mesh.nodes_mm[:, 0], 1.0)
+    np.testing.assert_allclose(state.displacement[side, 0], -0.292893, atol=1e-6)
+
+
+def stretched_cube(
+    solid: SolidMaterial, *, order: int, stretch: float, settings: NewtonSettings
+) -> tuple[Equilibrium, State]:
+    """A unit cube between rollers that are drawn apart along y, its sides free."""
     mesh = cube_mesh(order=order)
     is_fixed = np.isclose(mesh.nodes_mm, 0.0)
     is_fixed[:, 1] |= np.isclose(mesh.nodes_mm[:, 1], 1.0)
-    body = Equilibrium(mesh, {"solid": body_solid}, is_fixed=is_fixed)
+    body = Equilibrium(mesh, {"solid": solid}, is_fixed=is_fixed)
     guess = stretch**-0.5 * 1.02
     start = State(mesh.nodes_mm * np.array([guess, stretch, guess]) - mesh.nodes_mm, body.unloaded().pressure)
-    result = find_equilibrium(body, start, Load(0.0, 0.0), solver=linear_solver(), settings=tight)
-    reactions = body.balance(result.state, Load(0.0, 0.0)).condensed
-    top = np.isclose(mesh.nodes_mm[:, 1], 1.0)
-    assert reactions[top, 1].sum() == pytest.approx(nominal_MPa, rel=1e-8)
-    if lateral is not None:
-        side = np.isclose(mesh.nodes_mm[:, 0], 1.0)
-        np.testing.assert_allclose(1.0 + result.state.displacement[side, 0], lateral, rtol=1e-8)
+    result = find_equilibrium(body, start, Load(0.0, 0.0), solver=linear_solver(), settings=settings)
+    return body, result.state
 
 
 @pytest.mark.parametrize("order", [1, 2])

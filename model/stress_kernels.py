@@ -24,45 +24,60 @@ def symmetric_eigen(matrix: FloatArray, vectors: FloatArray) -> None:
     """Diagonalise a symmetric 3×3 matrix in place by Jacobi's rotations.
 
     On return the diagonal of `matrix` holds the eigenvalues and the columns of `vectors` the
-    eigenvectors. Exact for equal eigenvalues too, which closed formulas are not.
+    eigenvectors. Exact for equal eigenvalues too, which closed formulas are not. All is kept in single
+    variables, and so in the processor's registers: this is most of what the kinematics cost.
     """
-    for i in range(3):
-        for j in range(3):
-            vectors[i, j] = 1.0 if i == j else 0.0
+    a00, a11, a22 = matrix[0, 0], matrix[1, 1], matrix[2, 2]
+    a01, a12, a02 = matrix[0, 1], matrix[1, 2], matrix[0, 2]
+    v00, v01, v02 = 1.0, 0.0, 0.0
+    v10, v11, v12 = 0.0, 1.0, 0.0
+    v20, v21, v22 = 0.0, 0.0, 1.0
+    negligible = _NEGLIGIBLE * (abs(a00) + abs(a11) + abs(a22))
     for _ in range(_SWEEPS):
-        off = abs(matrix[0, 1]) + abs(matrix[0, 2]) + abs(matrix[1, 2])
-        if off < _NEGLIGIBLE * (abs(matrix[0, 0]) + abs(matrix[1, 1]) + abs(matrix[2, 2])):
-            return
-        for p in range(2):
-            for q in range(p + 1, 3):
-                if matrix[p, q] != 0.0:
-                    _rotate(matrix, vectors, p, q)
+        if abs(a01) + abs(a02) + abs(a12) < negligible:
+            break
+        tangent, cosine, sine = _rotation(a00, a11, a01)
+        a00, a11, a01 = a00 - tangent * a01, a11 + tangent * a01, 0.0
+        a02, a12 = _turned(a02, a12, cosine, sine)
+        v00, v01 = _turned(v00, v01, cosine, sine)
+        v10, v11 = _turned(v10, v11, cosine, sine)
+        v20, v21 = _turned(v20, v21, cosine, sine)
+        tangent, cosine, sine = _rotation(a00, a22, a02)
+        a00, a22, a02 = a00 - tangent * a02, a22 + tangent * a02, 0.0
+        a01, a12 = _turned(a01, a12, cosine, sine)
+        v00, v02 = _turned(v00, v02, cosine, sine)
+        v10, v12 = _turned(v10, v12, cosine, sine)
+        v20, v22 = _turned(v20, v22, cosine, sine)
+        tangent, cosine, sine = _rotation(a11, a22, a12)
+        a11, a22, a12 = a11 - tangent * a12, a22 + tangent * a12, 0.0
+        a01, a02 = _turned(a01, a02, cosine, sine)
+        v01, v02 = _turned(v01, v02, cosine, sine)
+        v11, v12 = _turned(v11, v12, cosine, sine)
+        v21, v22 = _turned(v21, v22, cosine, sine)
+    matrix[0, 0], matrix[1, 1], matrix[2, 2] = a00, a11, a22
+    matrix[0, 1], matrix[1, 2], matrix[0, 2] = a01, a12, a02
+    matrix[1, 0], matrix[2, 1], matrix[2, 0] = a01, a12, a02
+    vectors[0, 0], vectors[0, 1], vectors[0, 2] = v00, v01, v02
+    vectors[1, 0], vectors[1, 1], vectors[1, 2] = v10, v11, v12
+    vectors[2, 0], vectors[2, 1], vectors[2, 2] = v20, v21, v22
 
 
 @njit(cache=True)
-def _rotate(matrix: FloatArray, vectors: FloatArray, p: int, q: int) -> None:
-    """Annihilate one off-diagonal entry."""
-    ratio = (matrix[q, q] - matrix[p, p]) / (2.0 * matrix[p, q])
-    tangent = 1.0 / (abs(ratio) + np.sqrt(ratio * ratio + 1.0))
-    if ratio < 0.0:
-        tangent = -tangent
+def _rotation(first: float, second: float, between: float) -> tuple[float, float, float]:
+    """Tangent, cosine and sine of the rotation that annihilates an entry between two diagonal ones."""
+    if between == 0.0:
+        return 0.0, 1.0, 0.0
+    half = 0.5 * (second - first)
+    length = np.sqrt(half * half + between * between)
+    tangent = between / (half + length if half >= 0.0 else half - length)
     cosine = 1.0 / np.sqrt(tangent * tangent + 1.0)
-    sine = tangent * cosine
-    shift = tangent * matrix[p, q]
-    matrix[p, p] -= shift
-    matrix[q, q] += shift
-    matrix[p, q] = 0.0
-    matrix[q, p] = 0.0
-    r = 3 - p - q
-    low, high = matrix[r, p], matrix[r, q]
-    matrix[r, p] = cosine * low - sine * high
-    matrix[p, r] = matrix[r, p]
-    matrix[r, q] = sine * low + cosine * high
-    matrix[q, r] = matrix[r, q]
-    for k in range(3):
-        low, high = vectors[k, p], vectors[k, q]
-        vectors[k, p] = cosine * low - sine * high
-        vectors[k, q] = sine * low + cosine * high
+    return tangent, cosine, tangent * cosine
+
+
+@njit(cache=True)
+def _turned(low: float, high: float, cosine: float, sine: float) -> tuple[float, float]:
+    """Rotate a pair."""
+    return cosine * low - sine * high, sine * low + cosine * high
 
 
 @njit(cache=True, parallel=True, fastmath=_FAST)

@@ -25,6 +25,11 @@ PROPERTIES = (
         "test_materials.py::test_ogden_nominal_stress",
     ),
     ("2", "uniaxial tension with a finite bulk modulus", "test_closed_forms.py::test_uniaxial_tension"),
+    (
+        "cube",
+        "incompressible cube pulled to twice its length",
+        "test_closed_forms.py::test_incompressible_cube",
+    ),
     ("6", "cube under pressure all round", "test_closed_forms.py::test_cube_under_pressure_all_round"),
     (
         "12",

@@ -91,11 +91,14 @@ def _simulate_reduced(experiment: Any, pressures: Any, results: Any, given: dict
 def _print_path(path: Any) -> None:
     from . import output
 
+    reasons = path.reason or ("",) * len(path)
+    remarks = [
+        "the same" if reason and reason == before else reason
+        for before, reason in zip(("", *reasons), reasons, strict=False)
+    ]
     rows = [
-        [f"{p:g}", number(x), number(y), reason]
-        for p, x, y, reason in zip(
-            path.pressure_kPa, path.ux_mm, path.uy_mm, path.reason or ("",) * len(path), strict=True
-        )
+        [f"{p:g}", number(x), number(y), remark]
+        for p, x, y, remark in zip(path.pressure_kPa, path.ux_mm, path.uy_mm, remarks, strict=True)
     ]
     output.print_table("Modelled tip path", ["pressure kPa", "x mm", "y mm", "remark"], rows)
 

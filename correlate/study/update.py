@@ -129,8 +129,10 @@ class Update:
 
     def sentences(self) -> list[str]:
         """Say the main findings, one sentence each."""
+        lowest, highest = min(self.plan.pressures_kPa), max(self.plan.pressures_kPa)
         found = [
-            f"{one.measured.name} ({'fitted' if one.is_fitted else 'check'}): the distance goes from "
+            f"{one.measured.name} ({'fitted' if one.is_fitted else 'check'}): at the study's pressures, "
+            f"{lowest:g} to {highest:g} kPa, the distance goes from "
             f"{one.nominal_rmse_mm:.1f} to {one.updated_rmse_mm:.1f} mm (root mean square)."
             for one in self.comparisons
         ]

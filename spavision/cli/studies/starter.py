@@ -27,7 +27,7 @@ plus_minus = 0.2
 [suspects.roof_mm]
 distribution = "uniform"
 plus_minus = 0.2
-[suspects.strip_a_mm]          # closes the voids; void_floor_mm is a suspect where the mould casts a floor too
+[suspects.strip_a_mm]          # closes the voids; void_floor_mm is one where the mould casts a floor
 distribution = "uniform"
 plus_minus = 0.1
 [suspects.strip_b_mm]

@@ -37,9 +37,9 @@ Written by `python benchmarks/fe_reach.py` (spavision {version}); do not edit. D
 alike, pressure control. Of {variants} variants {finished} were run; {reached} of these reach 65 kPa.
 
 A cell holds the tip's x in mm at 65 kPa, or where the ramp stops. ◎ is the first of 0, 5, … 65 kPa at which
-the actuator has passed through itself in the plane of symmetry: contact is not modelled, and results from there
-on are not a real actuator's. ↯ is the pressure in kPa at which it first snapped over a fold of the path, mostly
-a corner of a thin wall folding in. A dash: not run."""
+the actuator has passed through itself in the plane of symmetry: contact is not modelled, and results from
+there on are not a real actuator's. ↯ is the pressure in kPa at which it first snapped over a fold of the
+path, mostly a corner of a thin wall folding in. A dash: not run."""
 
 
 @dataclass(frozen=True)

@@ -72,7 +72,7 @@ def run() -> NoReturn:
     except click.exceptions.Abort:
         _stop(
             "spavision: interrupted; the files written so far are whole, and the same command goes on "
-            "without doing again the photos or pressure steps that are done",
+            "without doing again the photos, pressure steps or cases that are done",
             130,
         )
     except click.ClickException as error:

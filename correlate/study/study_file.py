@@ -65,8 +65,12 @@ class MeasuredSection(Section):
 
     path: str = Field(description="CSV with pressure_kPa, ux_mm, uy_mm, such as a track.csv")
     crimp_ratio: CrimpRatio | None = Field(None, description="the study's unless given")
-    first_bend: Literal["right", "left"] = Field("right", description="side the tip moves to first")
-    pressure_unit: str = Field("kPa", description="unit of the file's pressures")
+    first_bend: Literal["right", "left"] | None = Field(
+        None, description="side the tip moves to first, the experiment file's unless given"
+    )
+    pressure_unit: Literal["kPa", "Pa", "bar", "mbar", "psi", "MPa"] = Field(
+        "kPa", description="unit of the file's pressures"
+    )
 
 
 class UpdateSection(Section):

@@ -10,6 +10,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from spavision.cli.studies.measured import measured_paths
+from spavision.cli.studies.setup import prepare
 from spavision.cli.studies.starter import STARTER
 from spavision.correlate.study.study_file import StudyFile
 from spavision.experiment import Experiment
@@ -160,6 +162,7 @@ def test_sweep_tells_the_failed_case_and_the_one_beyond_the_range(spavision, tmp
         ("[suspects.roof_mm]\ndistribution='uniform'\nlow=3\nhigh=4", "outside 3 to 4"),
         ("[study]\nmodel='huge'", "[study] model"),
         ("", "names no suspect"),
+        ("[[measured]]\npath='m.csv'\npressure_unit='torr'", "pressure_unit"),
         (
             "[suspects.law]\ndistribution='choice'\noptions=['slack-fibre','ogden']",
             "no suspect is an input of the model",
@@ -185,3 +188,16 @@ def test_each_defect_of_a_study_file_is_told_in_one_sentence(spavision, tmp_path
 )
 def test_sweep_that_makes_no_sense_is_told_in_one_sentence(spavision, options, sentence):
     assert spavision("study", "sweep", *options).is_one_sentence_about(sentence)
+
+
+def test_measured_paths_are_turned_into_the_model_s_axes(study_file, tmp_path):
+    """The experiment file says to which side the first bend goes; a path of its own may say otherwise."""
+    (tmp_path / "experiment.toml").write_text("[actuator]\nfirst_bend = 'left'\n")
+    text = STUDY.replace("[study]", "[study]\nexperiment = 'experiment.toml'", 1)
+    text += "[[measured]]\npath = 'measured.csv'\n[[measured]]\npath = 'measured.csv'\nfirst_bend = 'right'\n"
+    study_file.write_text(text, encoding="utf-8")
+    given = dict.fromkeys(("cases", "model", "crimp")) | {"force": False, "workers": 1, "scheduler": ""}
+    setup = prepare("attribute", study_file, {**given, "output": tmp_path / "out"})
+    found = measured_paths(setup, tmp_path / "measured.csv")
+    assert [one.path.ux_mm[-1] for one in found] == [-5.2, -5.2, 5.2]
+    assert found[0].record()["ux_mm"] == [0.0, -2.3, -5.2]

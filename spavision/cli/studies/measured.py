@@ -45,12 +45,14 @@ def measured_paths(setup: Setup, given: Path | None) -> list[MeasuredPath]:
     InputError
         If there is none, or a file is not valid.
     """
-    found = [] if given is None else [MeasuredPath(read_tip_path(given), None, given)]
+    side = setup.nominal.actuator.first_bend
+    found = []
+    if given is not None:
+        found.append(MeasuredPath(in_bending_axes(read_tip_path(given), first_bend=side), None, given))
     for one in setup.study.measured:
         file = setup.beside(one.path)
-        path = in_bending_axes(
-            read_tip_path(file, pressure_unit=one.pressure_unit), first_bend=one.first_bend
-        )
+        read = read_tip_path(file, pressure_unit=one.pressure_unit)
+        path = in_bending_axes(read, first_bend=one.first_bend or side)
         found.append(MeasuredPath(path, one.crimp_ratio, file))
     if not found:
         raise InputError(

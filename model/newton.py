@@ -10,7 +10,10 @@ from .equilibrium import Balance, Equilibrium, Load, State
 from .linear_solver import LinearSolver, SingularTangentError
 
 _FAST_SHRINKAGE = 0.3
-"""Ratio of corrections up to which a kept tangent costs less than a new one."""
+"""Ratio of corrections, or residuals, up to which a kept tangent costs less than a new one."""
+
+_NEARLY_DONE = 10.0
+"""Residual in tolerances, below which a kept tangent does for the rest."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +31,8 @@ class NewtonSettings:
     max_iterations : int
     reuse_below_mm : float
         After a correction below this the factorised tangent is kept, as long as the corrections shrink
-        fast; 0 forms a new one in each iteration.
+        fast, and also where the residual, shrinking fast, has come near its tolerance; 0 forms a new one
+        in each iteration.
     """
 
     residual_tolerance: float = 1e-5
@@ -93,15 +97,23 @@ def find_equilibrium(
         if iteration == settings.max_iterations:
             break
         try:
-            if tangent_at is None or corrections.want_new_tangent:
+            is_kept = not corrections.want_new_tangent or _is_nearly_done(residuals, settings)
+            if tangent_at is None or not is_kept:
                 solver.factorise(problem.tangent(state, load, balance))
                 tangent_at, tangents = balance, tangents + 1
             correction = solver.solve(-problem.residual(state, balance, tangent_at))
         except SingularTangentError as error:
             raise NotConvergedError("the tangent is singular") from error
-        corrections.add(float(np.abs(correction).max()))
+        corrections.add(float(np.abs(correction).max()), with_new_tangent=not is_kept)
         state = problem.update(state, balance, correction, tangent_at=tangent_at)
     raise NotConvergedError(f"no convergence in {settings.max_iterations} iteration(s)")
+
+
+def _is_nearly_done(residuals: list[float], settings: NewtonSettings) -> bool:
+    """Whether the last residual, come down fast, is so small that the kept tangent does for the rest."""
+    if settings.reuse_below_mm == 0.0 or len(residuals) < 2:
+        return False
+    return residuals[-1] < min(_NEARLY_DONE * settings.residual_tolerance, _FAST_SHRINKAGE * residuals[-2])
 
 
 class _Corrections:
@@ -117,7 +129,7 @@ class _Corrections:
         """Whether the last one was small enough."""
         return self._last_mm < self._settings.correction_tolerance_mm
 
-    def add(self, size_mm: float) -> None:
+    def add(self, size_mm: float, *, with_new_tangent: bool) -> None:
         """Note a correction.
 
         Raises
@@ -127,6 +139,6 @@ class _Corrections:
         """
         if not size_mm < self._settings.largest_correction_mm:
             raise NotConvergedError(f"a correction of {size_mm:.3g} mm")
-        shrinks = self.want_new_tangent or size_mm < _FAST_SHRINKAGE * self._last_mm
+        shrinks = with_new_tangent or size_mm < _FAST_SHRINKAGE * self._last_mm
         self.want_new_tangent = not (shrinks and size_mm < self._settings.reuse_below_mm)
         self._last_mm = size_mm

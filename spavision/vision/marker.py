@@ -18,6 +18,9 @@ from .rim import find_rim
 FAINTEST_SHARE = 0.22
 """Chroma along the marker's hue, over the named colour's, below which nothing counts as coloured."""
 
+VIVID_SHARE = 0.5
+"""The same share from which a colour is no tint of a square."""
+
 DIAMETER_RANGE_SQUARES = (0.7, 5.0)
 """Plausible marker diameters where none is given: 1.75 to 12.5 mm on 2.5 mm squares."""
 
@@ -115,8 +118,11 @@ def find_candidates(
     spots = _spots(small, strength, FAINTEST_SHARE * colour_chroma(colour), low * pitch, high * pitch)
     offset = np.array([left, top], dtype=float)
     found = [_examine(rgb, board, _enlarged(spot, factor, offset)) for spot in spots[:MOST_CANDIDATES]]
+    vivid = VIVID_SHARE * colour_chroma(colour)
     return tuple(
-        c for c in found if c is not None and low < 2.0 * c.radius_squares < high and not _is_square(c)
+        c
+        for c in found
+        if c is not None and low < 2.0 * c.radius_squares < high and not _is_square(c, vivid=vivid)
     )
 
 
@@ -210,9 +216,9 @@ def _outline(board: BoardView, disc: Disc) -> FloatArray:
     return project(board.camera, board.pose, ring)
 
 
-def _is_square(candidate: Candidate) -> bool:
+def _is_square(candidate: Candidate, *, vivid: float) -> bool:
     """Tell a square of the board, tinted by noise or fringes, from a dot."""
-    return candidate.on_board > 0.8 and candidate.radius_squares < 0.75
+    return candidate.on_board > 0.8 and candidate.radius_squares < 0.75 and candidate.strength < vivid
 
 
 def _board_around(board: BoardView, circle: Circle) -> float:

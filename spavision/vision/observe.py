@@ -18,6 +18,9 @@ from .marker import Candidate, find_candidates
 from .photos import Photo, read_photo
 
 MAP_MARGIN_SQUARES = 8
+MAP_BLUR_SQUARES = 0.9
+MAP_REACH_SQUARES = 3.0 * MAP_BLUR_SQUARES
+"""How far beyond its rim a spot shows in the map."""
 
 
 @dataclass(frozen=True)
@@ -37,12 +40,14 @@ class MarkerLook:
 
 @dataclass(frozen=True)
 class BoardMap:
-    """Brightness of the photograph at lattice nodes, squares averaged away.
+    """Brightness of the photograph at lattice nodes, squares averaged away: what lies on and about the board.
+
+    The marker is left out. It moves as a whole, and would pass for a board that did.
 
     Parameters
     ----------
     values : float32 array, shape (rows, columns)
-        Grey levels; NaN outside the photograph.
+        Grey levels; NaN outside the photograph and about spots that may be the marker.
     origin : tuple of int
         Column and row index of ``values[0, 0]`` in the photograph's lattice.
     """
@@ -123,7 +128,7 @@ def observe(
         board,
         candidates,
         base_candidates,
-        _board_map(photo.gray, board),
+        _board_map(photo.gray, board, candidates),
     )
 
 
@@ -134,16 +139,19 @@ def _candidates(photo: Photo, board: BoardView, look: MarkerLook) -> tuple[Candi
     return find_candidates(photo.rgb, board, colour=colour, diameter_squares=look.diameter_squares)
 
 
-def _board_map(gray: FloatImage, board: BoardView) -> BoardMap:
+def _board_map(gray: FloatImage, board: BoardView, spots: tuple[Candidate, ...]) -> BoardMap:
     low = board.indices.min(axis=0) - MAP_MARGIN_SQUARES
     high = board.indices.max(axis=0) + MAP_MARGIN_SQUARES
     columns, rows = np.meshgrid(np.arange(low[0], high[0] + 1), np.arange(low[1], high[1] + 1))
     nodes = np.stack([columns, rows], axis=-1).reshape(-1, 2).astype(float)
     pixels = project(board.camera, board.pose, nodes).reshape(*columns.shape, 2)
     factor = min(1.0, 4.0 / board.pitch_px)
-    smooth = blur(shrink(gray, factor), 0.9 * board.pitch_px * factor)
+    smooth = blur(shrink(gray, factor), MAP_BLUR_SQUARES * board.pitch_px * factor)
     values = sample(smooth, shrunk_place(pixels, factor))
     height, width = gray.shape
     inside = (pixels >= 0).all(axis=-1) & (pixels[..., 0] < width) & (pixels[..., 1] < height)
     values[~inside] = np.nan
+    for spot in spots:
+        distance = np.hypot(columns - spot.place_squares[0], rows - spot.place_squares[1])
+        values[distance < spot.radius_squares + MAP_REACH_SQUARES] = np.nan
     return BoardMap(values, (int(low[0]), int(low[1])))

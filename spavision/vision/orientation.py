@@ -9,7 +9,7 @@ import numpy as np
 
 from .arrays import IntArray
 from .observe import BoardMap, Observation
-from .registration import SMALLEST_CERTAINTY, disagreements, levelled
+from .registration import MAP_ERROR, SMALLEST_CERTAINTY, disagreements, levelled
 from .stations import Stations
 
 MUCH_BETTER = 0.8
@@ -54,4 +54,4 @@ def _quarter_turns(reference: Observation, other: Observation, shift: IntArray) 
         turned, centred = BoardMap(values, (left, top)), np.zeros(2, dtype=np.intp)
         costs.append(min(disagreements(still, turned, about=centred).values(), default=np.inf))
     best = int(np.argmin(costs))
-    return best if costs[best] < MUCH_BETTER * costs[0] else 0
+    return best if costs[best] < MUCH_BETTER * costs[0] - MAP_ERROR else 0

@@ -14,7 +14,7 @@ from .circle import Circle, fit_circle
 from .displacement import Place, common_radius_mm, fit_place, rim_in_plane
 from .evidence import Evidence
 from .marker import Candidate
-from .registration import LEAST_CERTAINTY
+from .registration import SMALLEST_CERTAINTY
 from .selection import BASE_MOTION, TIP_MOTION, Motion, select_markers
 
 Spots = list[tuple[Candidate, ...]]
@@ -60,7 +60,7 @@ def find_places(evidence: Evidence) -> Places:
     tip = [_by_hand(evidence, photo, place) for photo, place in enumerate(tip)]
     if evidence.settings.base_marker_colour is None:
         # What may be off by whole squares is no reading; two markers would be off by the same.
-        certain = evidence.stations.certainty >= LEAST_CERTAINTY
+        certain = evidence.stations.certainty >= SMALLEST_CERTAINTY
         tip = [place if certain[photo] else None for photo, place in enumerate(tip)]
         return Places(tuple(_required(tip)), (), radius)
     base, _ = _fit_all(evidence, bases, evidence.settings.base_diameter_mm)

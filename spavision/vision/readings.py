@@ -11,7 +11,7 @@ from .budget import BudgetEntry, SetUp, uncertainty_budget
 from .camera import project
 from .evidence import Evidence
 from .places import Places
-from .registration import LEAST_CERTAINTY, SMALLEST_CERTAINTY
+from .registration import SMALLEST_CERTAINTY
 from .result import Reading
 
 
@@ -64,7 +64,7 @@ def _status(evidence: Evidence, places: Places, photo: int) -> tuple[str, str]:
         return "rejected", remark
     if observation.problem:
         return "missing", observation.problem
-    if not places.base and evidence.stations.certainty[photo] < LEAST_CERTAINTY:
+    if not places.base and evidence.stations.certainty[photo] < SMALLEST_CERTAINTY:
         return "missing", "camera moved, and nothing tells by how many squares: show the board's rim"
     if places.base and places.base[photo] is None:
         return "missing", "base marker not found, so its motion cannot be taken off"
@@ -75,9 +75,6 @@ def _status(evidence: Evidence, places: Places, photo: int) -> tuple[str, str]:
     base = places.base[photo] if places.base else None
     if base is not None and base.partial:
         return "partial", f"{100 * base.circle.coverage:.0f} % of the base marker's rim is seen"
-    if not places.base and evidence.stations.certainty[photo] < SMALLEST_CERTAINTY:
-        moved = "camera moved, and the number of squares is not certain"
-        return "partial", f"{moved}; {remark}" if remark else moved
     return "ok", remark
 
 

@@ -14,11 +14,8 @@ from .observe import BoardMap, Observation
 
 WIDEST_SHIFT_SQUARES = 20
 SMALLEST_CERTAINTY = 3.0
-"""Lead of the best shift, over the disagreement that it leaves, from which its index is trusted."""
-
-LEAST_CERTAINTY = 2.0
-"""Below this the shift is a guess. Wrong shifts stay below 1.6 on renders; with the clamp in view, right ones
-reach 4 to 7."""
+"""Lead of the best shift, over the disagreement that it leaves, from which its index is trusted. Wrong shifts
+stay below 1.6 on renders; with the clamp in view, right ones reach 4 to 7."""
 
 BLOCK_SQUARES = 6
 
@@ -30,6 +27,12 @@ MOVED_SHARE = 0.3
 
 STILL_PX = 0.04
 """Lattice motion up to which the camera counts as unmoved."""
+
+MAP_ERROR = 0.002
+"""Difference of two maps, relative to the board's brightness, that noise and uneven light alone make."""
+
+CONTRADICTION = 1.3
+"""Disagreement that an unmoved camera leaves, over that of the best shift, above which it may have moved."""
 
 
 @dataclass(frozen=True)
@@ -59,20 +62,30 @@ def register(reference: Observation, other: Observation) -> Registration:
     assert other.board is not None
     assert reference.map is not None
     assert other.map is not None
-    seen = to_plane(reference.board.camera, reference.board.pose, other.board.pixels)
-    offset = seen - other.board.indices
-    middle = np.median(offset, axis=0)
-    spread = float(np.median(np.linalg.norm(offset - middle, axis=1)))
-    nearest = np.rint(middle).astype(np.intp)
-    still = spread < 0.08 and float(np.abs(middle - nearest).max()) < 0.12 and nearest.sum() % 2 == 0
+    nearest, is_near = _nearest_shift(reference.board, other.board)
+    unmoved = (int(nearest[0]), int(nearest[1]))
+    is_same = same_position(reference.board, other.board, nearest)
     one_map, other_map = levelled(reference.map), levelled(other.map)
     costs = disagreements(one_map, other_map, about=nearest)
     best = min(costs, key=lambda shift: costs[shift])
-    rivals = sorted((shift for shift in costs if shift != best), key=lambda shift: costs[shift])
-    if still and costs.get((int(nearest[0]), int(nearest[1])), np.inf) < 1.3 * costs[best]:
+    if (is_near or is_same) and costs.get(unmoved, np.inf) < CONTRADICTION * costs[best] + MAP_ERROR:
         return Registration(nearest, np.inf)
+    # A bump by whole squares and without any turn hardly happens: it takes clear evidence to believe in it.
+    if is_same and _certainty(one_map, other_map, best, unmoved) < SMALLEST_CERTAINTY:
+        return Registration(nearest, np.inf)
+    rivals = sorted((shift for shift in costs if shift != best), key=lambda shift: costs[shift])
     certainty = min((_certainty(one_map, other_map, best, rival) for rival in rivals[:5]), default=0.0)
     return Registration(np.array(best, dtype=np.intp), certainty)
+
+
+def _nearest_shift(first: BoardView, second: BoardView) -> tuple[IntArray, bool]:
+    """Return the shift that an unmoved camera would have, and whether the lattice lies near where it says."""
+    offset = to_plane(first.camera, first.pose, second.pixels) - second.indices
+    middle = np.median(offset, axis=0)
+    spread = float(np.median(np.linalg.norm(offset - middle, axis=1)))
+    nearest = np.rint(middle).astype(np.intp)
+    is_near = spread < 0.08 and float(np.abs(middle - nearest).max()) < 0.12 and nearest.sum() % 2 == 0
+    return nearest, is_near
 
 
 def same_position(first: BoardView, second: BoardView, shift: IntArray) -> bool:
@@ -142,7 +155,8 @@ def _certainty(reference: BoardMap, other: BoardMap, best: tuple[int, int], riva
     with np.errstate(invalid="ignore"):
         moved = ~(np.minimum(own, others) < MOVED_SHARE * LARGEST_DIFFERENCE)
     lead, rest = (_block_sums(np.where(moved, 0.0, field)) for field in (others - own, own))
-    return float(lead.sum() / max(np.sqrt((rest**2).sum()), 1e-9))
+    error = np.maximum(rest, BLOCK_SQUARES**2 * MAP_ERROR)
+    return float(lead.sum() / np.sqrt((error**2).sum()))
 
 
 def _block_sums(values: FloatImage) -> FloatImage:

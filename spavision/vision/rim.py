@@ -124,19 +124,23 @@ def _edges(
     points = centre + (radius * crossing)[:, None] * ring
     pixels = np.full((N_RAYS, 2), np.nan)
     pixels[found] = project(board.camera, board.pose, points[found])
-    return Rim(pixels, _contrast(profiles[found], distances))
+    by_channel = _contrast(profiles[found], distances, 4.0 * np.ones(3))
+    # On the bare board black and white lie about the spot: along one direction of colour they are alike.
+    along = _contrast(values[found, :, None], distances, 4.0 * (direction @ direction)[None] / length**2)
+    return Rim(pixels, max(by_channel, along))
 
 
-def _contrast(profiles: FloatArray, distances: FloatArray) -> float:
-    """Step across the rim over the scatter of colours on either side, along rays that show an edge.
+def _contrast(profiles: FloatArray, distances: FloatArray, noise: FloatArray) -> float:
+    """Step across the rim over the scatter of values on either side, along rays that show an edge.
 
-    Medians, for near its border a cover's colour shows on those rays too.
+    Medians, for near its border a cover's colour shows on those rays too. Profiles have shape (rays, samples,
+    channels), ``noise`` holds the least variance of each channel.
     """
-    middle, variance = np.zeros((2, 3)), np.full(3, 4.0)
+    middle, variance = np.zeros((2, profiles.shape[2])), noise
     for side, (low, high) in enumerate(SIDES):
-        colours = profiles[:, (distances > low) & (distances < high)].reshape(-1, 3)
-        middle[side] = np.median(colours, axis=0)
-        variance += (1.4826 * np.median(np.abs(colours - middle[side]), axis=0)) ** 2
+        values = profiles[:, (distances > low) & (distances < high)].reshape(-1, profiles.shape[2])
+        middle[side] = np.median(values, axis=0)
+        variance = variance + (1.4826 * np.median(np.abs(values - middle[side]), axis=0)) ** 2
     return float(np.sqrt(((middle[0] - middle[1]) ** 2 / variance).sum()))
 
 

@@ -13,7 +13,7 @@ from .marker import Candidate
 COST_OF_MISSING = 7.0
 """A reading that costs more than this is worse than none."""
 
-COST_ON_BOARD = 4.0
+COST_ON_BOARD = 2.5
 """Cost of a spot that the board's corners surround: the marker's carrier hides them."""
 
 RADIUS_TOLERANCE = 0.15

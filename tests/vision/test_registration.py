@@ -6,7 +6,7 @@ import pytest
 from spavision.vision.board import BoardView
 from spavision.vision.camera import Camera, Pose, project
 from spavision.vision.observe import BoardMap, Observation
-from spavision.vision.registration import LEAST_CERTAINTY, SMALLEST_CERTAINTY, register
+from spavision.vision.registration import SMALLEST_CERTAINTY, register
 
 NODES = np.stack(np.meshgrid(np.arange(60), np.arange(60)), axis=-1).reshape(-1, 2)
 CAMERA = Camera(1000.0, 1000.0, 300.0, 300.0, (0.0,) * 5, 600, 600)
@@ -41,7 +41,7 @@ def test_clamp_and_rim_tell_the_shift_though_the_actuator_moves(shift):
 def test_an_actuator_alone_does_not_tell_it():
     reference = photograph("reference", shift=(0.0, 0.0), tip=0, still=False)
     found = register(reference, photograph("other", shift=(2.4, 1.7), tip=9, still=False))
-    assert found.certainty < LEAST_CERTAINTY
+    assert found.certainty < SMALLEST_CERTAINTY
 
 
 def test_an_unmoved_camera_is_certain():

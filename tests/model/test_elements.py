@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 
+import numba
 import numpy as np
 import pytest
 from scipy.sparse import triu
@@ -12,11 +14,13 @@ from spavision.model.constitutive import deform, evaluate_materials
 from spavision.model.element_kernels import BLOCKS, element_forces, element_tangents
 from spavision.model.equilibrium import Equilibrium, Load, State
 from spavision.model.fibre_points import fibre_response
+from spavision.model.hex_mesh import TensorGrid, structured_mesh
 from spavision.model.linear_solver import linear_solver
 from spavision.model.materials.slack_fibre import SlackFibre
 from spavision.model.materials.solid import SolidMaterial
 from spavision.model.newton import NewtonSettings, find_equilibrium
 from spavision.model.reference_kernels import reference_element_tangent
+from spavision.model.sparsity import slabs
 
 from .conftest import cube_mesh
 
@@ -135,6 +139,30 @@ def test_kernel_against_numpy(body_solid: SolidMaterial, order: int) -> None:
         )
         for block, (i, j) in zip(blocks[e], BLOCKS, strict=True):
             np.testing.assert_allclose(block, expected[i, :, j, :], atol=1e-11 * np.abs(expected).max())
+
+
+def test_threads_never_add_to_the_same_entry(body_solid: SolidMaterial) -> None:
+    """Slabs of a long body: those two apart share no node, and the tangent is bitwise that of one thread."""
+    lines = [np.linspace(0.0, size, size + 1) for size in (2, 24, 1)]
+    mesh = structured_mesh(TensorGrid(*lines), order=2)
+    order, starts = slabs(mesh.elements, mesh.nodes_mm[mesh.elements].mean(axis=1))
+    nodes = [set(mesh.elements[order[a:b]].ravel()) for a, b in itertools.pairwise(starts)]
+    assert len(nodes) > 2
+    assert sorted(order) == list(range(len(mesh.elements)))
+    assert all(not nodes[i] & nodes[j] for i in range(len(nodes)) for j in range(i + 2, len(nodes)))
+
+    is_fixed = np.repeat(np.isclose(mesh.nodes_mm[:, 1:2], 0.0), 3, axis=1)
+    body = Equilibrium(mesh, {"solid": body_solid}, is_fixed=is_fixed)
+    state = displaced(body, 0.01)
+    balance = body.balance(state, LOAD)
+    tangent = body.tangent(state, LOAD, balance)
+    threads = numba.get_num_threads()
+    numba.set_num_threads(1)
+    try:
+        alone = body.tangent(state, LOAD, balance)
+    finally:
+        numba.set_num_threads(threads)
+    np.testing.assert_array_equal(alone.data, tangent.data)
 
 
 @pytest.mark.parametrize("order", [1, 2])

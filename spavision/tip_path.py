@@ -62,6 +62,20 @@ class TipPath:
         if unknown:
             raise ValueError(f"status {sorted(unknown)} is none of {STATUSES}")
 
+    @classmethod
+    def modelled(
+        cls,
+        pressure_kPa: FloatArray,
+        ux_mm: FloatArray,
+        uy_mm: FloatArray,
+        *,
+        status: tuple[str, ...] = (),
+        reason: tuple[str, ...] = (),
+    ) -> TipPath:
+        """Return a path whose uncertainty is not known, as a model computes it."""
+        unknown = np.full(len(pressure_kPa), np.nan)
+        return cls(pressure_kPa, ux_mm, uy_mm, unknown, unknown.copy(), status=status, reason=reason)
+
     def __len__(self) -> int:
         return len(self.pressure_kPa)
 

@@ -128,13 +128,8 @@ class CaseResult:
 
     def path(self, pressures_kPa: Sequence[float]) -> TipPath:
         """Return the tip path."""
-        unknown = np.full(len(pressures_kPa), np.nan)
-        return TipPath(
-            np.asarray(pressures_kPa, dtype=float),
-            np.array(self.ux_mm),
-            np.array(self.uy_mm),
-            unknown,
-            unknown.copy(),
+        return TipPath.modelled(
+            np.asarray(pressures_kPa, dtype=float), np.array(self.ux_mm), np.array(self.uy_mm)
         )
 
 

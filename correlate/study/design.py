@@ -238,9 +238,8 @@ def _interpolated_best(
         return None
     computed = np.array(ratios)[whole]
     fine = np.linspace(computed.min(), computed.max(), _FINE_STEPS)
-    unknown = np.full(len(pressures), np.nan)
     scores = [
-        score(TipPath(np.array(pressures), ux, uy, unknown, unknown))
+        score(TipPath.modelled(np.array(pressures), ux, uy))
         for ux, uy in PchipInterpolator(computed, values[whole])(fine)
     ]
     return float(round(fine[int(np.nanargmin(scores))], 4)) if np.isfinite(scores).any() else None

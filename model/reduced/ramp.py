@@ -197,13 +197,6 @@ def _tip_path(
         else:
             status.append("ok")
             reasons.append("")
-    unknown = np.full(len(pressures_kPa), np.nan)
-    return TipPath(
-        pressure_kPa=pressures_kPa,
-        ux_mm=relative[:, 0],
-        uy_mm=relative[:, 1],
-        sigma_ux_mm=unknown,
-        sigma_uy_mm=unknown.copy(),
-        status=tuple(status),
-        reason=tuple(reasons),
+    return TipPath.modelled(
+        pressures_kPa, relative[:, 0], relative[:, 1], status=tuple(status), reason=tuple(reasons)
     )

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from spavision.errors import InputError
+from spavision.quiet_threads import quiet_blas
 from spavision.tip_path import TipPath
 
 from .actuator_problem import actuator_problem, region_materials
@@ -18,7 +19,6 @@ from .hex_mesh import HexMesh
 from .journal import Checkpoint, Journal
 from .linear_solver import LinearSolver, linear_solver
 from .observe import centre_line, locate
-from .quiet_threads import quiet_blas
 from .simulation import Simulation, SimulationSettings, StepRecord
 from .stop_reason import stop_reason
 from .volume_control import volume_ramp

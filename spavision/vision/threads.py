@@ -1,14 +1,13 @@
-"""How many threads: several for photographs, one for the linear algebra."""
+"""One function on many photographs, several at a time."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import AbstractContextManager
 from typing import TypeVar
 
-from threadpoolctl import threadpool_limits
+from spavision.quiet_threads import quiet_blas
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -30,15 +29,5 @@ def in_threads(
         How many at a time; as many as there are processors where nothing is said.
     """
     several = max(1, min(workers or os.cpu_count() or 1, len(items)))
-    with one_blas_thread(), ThreadPoolExecutor(max_workers=several) as pool:
+    with quiet_blas(), ThreadPoolExecutor(max_workers=several) as pool:
         yield from pool.map(function, items)
-
-
-def one_blas_thread() -> AbstractContextManager[object]:
-    """Keep the linear algebra to the thread that calls it while a ``with`` block runs.
-
-    On matrices as small as a camera's, threads of its own wait for each other longer than they compute: the
-    adjustment of a series of photographs takes three times as long with two of them.
-    """
-    limits: AbstractContextManager[object] = threadpool_limits(1, user_api="blas")
-    return limits

@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from spavision.quiet_threads import quiet_blas
 from spavision.tip_path import TipPath
 
 from .arrays import FloatArray
@@ -29,7 +30,7 @@ from .scale import CameraFit, fit_camera
 from .settings import TrackSettings
 from .stations import Stations, group_stations
 from .suitable import refuse_hopeless, set_aside_strangers
-from .threads import in_threads, one_blas_thread
+from .threads import in_threads
 
 NO_CORRECTIONS: Corrections = MappingProxyType({})
 
@@ -95,7 +96,7 @@ def track_observations(
     """
     order = np.argsort(np.asarray(pressures_kPa, dtype=float), kind="stable")
     pressures = np.asarray(pressures_kPa, dtype=float)[order]
-    with one_blas_thread():
+    with quiet_blas():
         evidence = _evidence([observations[k] for k in order], settings, corrections)
         return _assemble(pressures, evidence, find_places(evidence))
 

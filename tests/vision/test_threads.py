@@ -1,4 +1,4 @@
-"""Several photographs at a time, one thread for the linear algebra."""
+"""Several photographs at a time."""
 
 from __future__ import annotations
 
@@ -6,14 +6,8 @@ import threading
 import time
 
 import pytest
-from threadpoolctl import threadpool_info
 
-from spavision.vision.threads import in_threads, one_blas_thread
-
-
-def blas_threads() -> set[int]:
-    """Threads that the linear algebra libraries loaded may use."""
-    return {library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"}
+from spavision.vision.threads import in_threads
 
 
 def test_results_come_in_the_order_of_the_items_whoever_ends_first() -> None:
@@ -36,11 +30,3 @@ def test_an_error_reaches_the_caller() -> None:
 
 def test_nothing_to_do_gives_nothing() -> None:
     assert list(in_threads(str, [])) == []
-
-
-def test_linear_algebra_keeps_to_one_thread_and_gets_its_others_back() -> None:
-    before = blas_threads()
-    assert list(in_threads(lambda _: blas_threads(), [0, 1])) == [{1}, {1}]
-    with one_blas_thread():
-        assert blas_threads() == {1}
-    assert blas_threads() == before

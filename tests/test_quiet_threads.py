@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+import numpy as np
 import pytest
 from threadpoolctl import ThreadpoolController
 
@@ -18,6 +19,7 @@ def openblas_threads() -> set[int]:
 
 @pytest.fixture(autouse=True)
 def _two_threads() -> Iterator[None]:
+    np.linalg.inv(np.eye(2))
     with ThreadpoolController().select(internal_api="openblas").limit(limits=2):
         yield
 

@@ -7,13 +7,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from spavision.errors import InputError
 from spavision.tip_path import FloatArray, TipPath
 
 from .case import CaseResult, displacements
 from .emulator import EmulatorCheck, check_emulator, fit_emulator
 from .explanation import Explanation, explain_alone, explain_forms, explain_together, measured_target
-from .plan import Plan, RunCases, full_model_error, full_runs, n_fitted, refuse_failed
+from .plan import (
+    Plan,
+    RunCases,
+    full_model_error,
+    full_runs,
+    n_fitted,
+    refuse_before_running,
+    refuse_failed,
+)
 from .sampling import draw_shares, one_at_a_time, values_at
 from .sensitivity import LocalSensitivity, SobolIndices, likenesses, local_sensitivities, sobol_indices
 from .suspects import nominal_point
@@ -137,6 +144,7 @@ def attribute(plan: Plan, measured: TipPath, run: RunCases) -> Attribution:
     InputError
         If the nominal case fails, no measured pressure is among the study's, or too few cases succeed.
     """
+    refuse_before_running(plan, measured)
     suspects, seed = plan.inputs, plan.seed
     points = draw_shares(len(suspects), plan.n_cases, sampling=plan.sampling, seed=seed)
     ends, forms = one_at_a_time(suspects), one_at_a_time(plan.forms)
@@ -149,8 +157,6 @@ def attribute(plan: Plan, measured: TipPath, run: RunCases) -> Attribution:
     full = full_runs(plan, points[fitted:], run)
     best_nominal = full[0] if full and full[0].status != "failed" else nominal
     target = measured_target(measured, best_nominal.path(plan.pressures_kPa), plan.experiment)
-    if not np.isfinite(target.measured_mm).any():
-        raise InputError("the measured path and the study share no pressure; set pressures_kPa in [study]")
     together, _ = explain_together(emulator, target, nominal=middle, seed=seed)
     by_form = explain_forms(target, plan.forms, _changes(alone[len(ends) :], nominal))
     return Attribution(

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import socket
 import warnings
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
 
 from spavision.errors import InputError, InputWarning
 
@@ -40,7 +42,7 @@ def run_on_dask(evaluate: Evaluate, cases: Sequence[object], *, address: str) ->
     Raises
     ------
     InputError
-        If Dask is not installed or no scheduler answers within `TIMEOUT_SECONDS`.
+        If the address is none, Dask is not installed, or no scheduler answers within `TIMEOUT_SECONDS`.
     """
     client = _connected(address)
     try:
@@ -87,7 +89,22 @@ def _run(client: Client, evaluate: Evaluate, cases: Sequence[object]) -> Iterato
         fill()
 
 
+def _refuse_no_address(address: str) -> None:
+    """Refuse what cannot be an address, or names no host: Dask would try on and on."""
+    try:
+        parts = urlsplit(address)
+        if not parts.scheme or not parts.hostname or not parts.port:
+            raise ValueError(address)
+    except ValueError as error:
+        raise InputError(f"--scheduler {address}: expected an address such as tcp://host:8786") from error
+    try:
+        socket.getaddrinfo(parts.hostname, parts.port)
+    except OSError as error:
+        raise InputError(f"--scheduler {address}: the host is not known; correct the address") from error
+
+
 def _connected(address: str) -> Client:
+    _refuse_no_address(address)
     try:
         from distributed import Client
     except ImportError as error:

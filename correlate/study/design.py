@@ -17,7 +17,7 @@ from spavision.tip_path import FloatArray, TipPath
 from .case import CaseResult, displacements
 from .explanation import measured_target
 from .parameters import Value, bounds
-from .plan import Plan, RunCases
+from .plan import Plan, RunCases, refuse_no_common_pressure
 from .sampling import draw_shares, values_at
 
 if TYPE_CHECKING:
@@ -171,9 +171,7 @@ def path_score(wished: TipPath, plan: Plan) -> Score:
     InputError
         If the two share no pressure.
     """
-    pressures = np.array(plan.pressures_kPa)
-    if not np.any(np.abs(pressures[:, None] - wished.pressure_kPa[None, :]) < 1e-6):
-        raise InputError("the wished path and the study share no pressure; set pressures_kPa in [study]")
+    refuse_no_common_pressure(plan, wished, what="wished")
 
     def score(path: TipPath) -> float:
         target = measured_target(wished, path, plan.experiment)

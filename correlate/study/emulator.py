@@ -20,7 +20,7 @@ from .suspects import Suspect
 
 _VARIANCE_KEPT = 0.9995
 _MOST_COMPONENTS = 8
-_FEWEST_CASES = 12
+FEWEST_CASES = 12
 _SMALLEST_SCATTER_MM = 1e-6
 
 
@@ -102,9 +102,9 @@ def fit_emulator(
     """
     values = displacements(results)
     whole = np.isfinite(values).all(axis=(1, 2))
-    if np.count_nonzero(whole) < _FEWEST_CASES:
+    if np.count_nonzero(whole) < FEWEST_CASES:
         raise InputError(
-            f"only {np.count_nonzero(whole)} of {len(results)} cases reached every pressure, {_FEWEST_CASES} "
+            f"only {np.count_nonzero(whole)} of {len(results)} cases reached every pressure, {FEWEST_CASES} "
             "are needed to learn from; add cases, lower the highest pressure, or narrow the suspects"
         )
     flat = values[whole].reshape(np.count_nonzero(whole), -1)

@@ -8,12 +8,13 @@ from typing import Protocol
 
 import numpy as np
 
+from spavision.correlate.discrepancy import SAME_PRESSURE_kPa
 from spavision.errors import InputError
 from spavision.experiment import Experiment
-from spavision.tip_path import FloatArray
+from spavision.tip_path import FloatArray, TipPath
 
 from .case import CaseResult, displacements
-from .emulator import Emulator
+from .emulator import FEWEST_CASES, Emulator
 from .parameters import Value
 from .sampling import values_at
 from .suspects import Suspect
@@ -68,6 +69,36 @@ class Plan:
 def n_fitted(n_cases: int) -> int:
     """Return how many random cases an emulator is fitted to; the rest, an eighth, check it."""
     return n_cases - max(1, round(_HELD_OUT * n_cases))
+
+
+def refuse_before_running(plan: Plan, measured: TipPath) -> None:
+    """Refuse a study that could only fail, before its cases are run.
+
+    Raises
+    ------
+    InputError
+        If the measured path and the study share no pressure, or the cases are too few for an emulator.
+    """
+    refuse_no_common_pressure(plan, measured, what="measured")
+    if n_fitted(plan.n_cases) < FEWEST_CASES:
+        raise InputError(
+            f"{plan.n_cases} cases are too few: an eighth is kept to check the emulator, and it is fitted to "
+            f"{FEWEST_CASES} at least; raise cases in [study]"
+        )
+
+
+def refuse_no_common_pressure(plan: Plan, path: TipPath, *, what: str) -> None:
+    """Refuse a path that has no reading at a pressure of the study, above the lowest.
+
+    Raises
+    ------
+    InputError
+        If it has none.
+    """
+    readings = path.readings().pressure_kPa
+    pressures = np.array(plan.pressures_kPa)
+    if not np.any(np.abs(pressures[:, None] - readings[None, :]) < SAME_PRESSURE_kPa):
+        raise InputError(f"the {what} path and the study share no pressure; set pressures_kPa in [study]")
 
 
 def refuse_failed(nominal: CaseResult) -> None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from spavision.checked_settings import Section, checked
 from spavision.tables import read_toml
@@ -30,6 +31,14 @@ class StudySection(Section):
         "sobol", description="quasi-random Sobol sequence, or plain Monte Carlo"
     )
     seed: int = Field(1, ge=0, description="seed of the random numbers")
+
+    @field_validator("pressures_kPa")
+    @classmethod
+    def _increase(cls, pressures: tuple[float, ...]) -> tuple[float, ...]:
+        for one, following in pairwise(pressures):
+            if following <= one:
+                raise ValueError(f"{one:g} is followed by {following:g}, expected increasing ones")
+        return pressures
 
 
 class SuspectSection(Section):

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from spavision.errors import InputError
 from spavision.tip_path import FloatArray, TipPath
 
 from .case import CaseResult
@@ -15,7 +14,7 @@ from .emulator import EmulatorCheck, check_emulator, fit_emulator
 from .explanation import Target, measured_target
 from .identifiability import Parameter, identified
 from .parameters import Value
-from .plan import Plan, RunCases, full_runs, n_fitted, refuse_failed
+from .plan import Plan, RunCases, full_runs, n_fitted, refuse_before_running, refuse_failed
 from .posterior import Misfit, Posterior, best_point, sample_posterior
 from .sampling import draw_shares, values_at
 from .suspects import nominal_point
@@ -174,14 +173,13 @@ def update(plan: Plan, measured: list[Measured], run: RunCases, *, steps: int) -
     """
     suspects, seed = plan.inputs, plan.seed
     fitted_path = measured[0]
+    refuse_before_running(plan, fitted_path.path)
     points = draw_shares(len(suspects), plan.n_cases, sampling=plan.sampling, seed=seed)
     nominal, *results = run([{}, *values_at(suspects, points)])
     refuse_failed(nominal)
     full = full_runs(plan, points[:0], run)
     base = full[0] if full and full[0].status != "failed" else nominal
     target = measured_target(fitted_path.path, base.path(plan.pressures_kPa), plan.experiment)
-    if not np.isfinite(target.measured_mm).any():
-        raise InputError("the measured path and the study share no pressure; set pressures_kPa in [study]")
     n = n_fitted(plan.n_cases)
     middle = nominal_point(suspects)
 

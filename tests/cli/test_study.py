@@ -161,6 +161,7 @@ def test_sweep_tells_the_failed_case_and_the_one_beyond_the_range(spavision, tmp
         ("[suspects.strip_b_mm]\ndistribution='uniform'\nplus_minus=4", "allowed are 0 to 20"),
         ("[suspects.roof_mm]\ndistribution='uniform'\nlow=3\nhigh=4", "outside 3 to 4"),
         ("[study]\nmodel='huge'", "[study] model"),
+        ("[study]\npressures_kPa=[5, 0]", "5 is followed by 0"),
         ("", "names no suspect"),
         ("[[measured]]\npath='m.csv'\npressure_unit='torr'", "pressure_unit"),
         (
@@ -201,3 +202,20 @@ def test_measured_paths_are_turned_into_the_model_s_axes(study_file, tmp_path):
     found = measured_paths(setup, tmp_path / "measured.csv")
     assert [one.path.ux_mm[-1] for one in found] == [-5.2, -5.2, 5.2]
     assert found[0].record()["ux_mm"] == [0.0, -2.3, -5.2]
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("pressures_kPa = [1, 11]", "the measured path and the study share no pressure"),
+        ("pressures_kPa = [0, 10]\ncases = 12", "12 cases are too few"),
+    ],
+)
+def test_attribution_that_could_only_fail_is_refused_before_it_runs(
+    spavision, study_file, tmp_path, text, sentence
+):
+    study = STUDY.replace("pressures_kPa = [0, 10]\n", "").replace("cases = 14", text)
+    study_file.write_text(study, encoding="utf-8")
+    done = spavision("study", "attribute", "study.toml", "--measured", "measured.csv", "-o", "out")
+    assert done.is_one_sentence_about(sentence)
+    assert not (tmp_path / "out").exists()

@@ -14,7 +14,7 @@ import pytest
 from spavision.correlate.study.case_files import STUDY_NAME, CaseFolder, finished_cases
 from spavision.correlate.study.case_table import case_table
 from spavision.correlate.study.evaluate import evaluate
-from spavision.correlate.study.execution import ATTEMPTS, Machine
+from spavision.correlate.study.execution import ATTEMPTS, Machine, run_cases
 from spavision.errors import InputError
 
 from .conftest import silent, wall_cases
@@ -142,6 +142,20 @@ def test_scheduler_that_does_not_answer_is_told(stand_in: ModuleType, monkeypatc
             advance=silent,
             evaluate=stand_in.linear,
         )
+
+
+@pytest.mark.parametrize(
+    ("address", "sentence"),
+    [
+        ("somewhere", "expected an address such as tcp://host:8786"),
+        ("tcp://localhost", "expected an address such as tcp://host:8786"),
+        ("tcp://localhost:port", "expected an address such as tcp://host:8786"),
+        ("tcp://nobody.invalid:8786", "the host is not known"),
+    ],
+)
+def test_address_that_is_none_is_told_at_once(address: str, sentence: str) -> None:
+    with pytest.raises(InputError, match=sentence):
+        next(run_cases(evaluate, wall_cases([2.0]), Machine(scheduler=address)))
 
 
 def test_worker_with_another_version_ends_the_study() -> None:

@@ -54,8 +54,8 @@ class Cavity:
         """
         table = reference_face(self.order)
         out = np.empty((len(self.faces), 3, self.faces.shape[1]))
-        functions = np.stack([table.values, table.tangents[:, 0], table.tangents[:, 1]], axis=1)
-        _forces(position, self.faces, functions, table.weights, np.asarray(self.axis_weights), out)
+        weights = np.asarray(self.axis_weights)
+        _forces(position, self.faces, _functions(self.order), table.weights, weights, out)
         return out
 
     def hessians(self, position: FloatArray) -> FloatArray:
@@ -67,10 +67,9 @@ class Cavity:
             The blocks (x, y), (y, z) and (x, z); those of equal components vanish.
         """
         table = reference_face(self.order)
-        vectors = np.stack(self._at_points(position), axis=2)
-        functions = np.stack([table.values, table.tangents[:, 0], table.tangents[:, 1]], axis=1)
         out = np.empty((len(self.faces), 3, self.faces.shape[1], self.faces.shape[1]))
-        _hessians(vectors, functions, table.weights, np.asarray(self.axis_weights), out)
+        weights = np.asarray(self.axis_weights)
+        _hessians(position, self.faces, _functions(self.order), table.weights, weights, out)
         return out
 
     def _at_points(self, position: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -80,6 +79,22 @@ class Cavity:
         points = np.einsum("qa,fai->fqi", table.values, corners)
         tangents = np.einsum("qda,fai->dfqi", table.tangents, corners)
         return points, tangents[0], tangents[1]
+
+
+def _functions(order: int) -> FloatArray:
+    """Shape functions of a face and their derivatives along it, shape (n_points, 3, n_face_nodes)."""
+    table = reference_face(order)
+    return np.stack([table.values, table.tangents[:, 0], table.tangents[:, 1]], axis=1)
+
+
+@njit(cache=True)
+def _combine_nodes(position: FloatArray, nodes: IntArray, functions: FloatArray, out: FloatArray) -> None:
+    """Write the position at a point of a face and the two tangents there, the rows of `out`."""
+    out[:] = 0.0
+    for a in range(len(nodes)):
+        for m in range(3):
+            for i in range(3):
+                out[m, i] += functions[m, a] * position[nodes[a], i]
 
 
 @njit(cache=True)
@@ -97,11 +112,7 @@ def _forces(
     out[:] = 0.0
     for f in range(len(faces)):
         for q in range(len(weights)):
-            vectors[:] = 0.0
-            for a in range(n_nodes):
-                for m in range(3):
-                    for i in range(3):
-                        vectors[m, i] += functions[q, m, a] * position[faces[f, a], i]
+            _combine_nodes(position, faces[f], functions[q], vectors)
             x, along, across = vectors[0], vectors[1], vectors[2]
             for i in range(3):
                 j, k = (i + 1) % 3, (i + 2) % 3
@@ -119,14 +130,20 @@ def _forces(
 
 @njit(cache=True, parallel=True)
 def _hessians(
-    vectors: FloatArray, functions: FloatArray, weights: FloatArray, axis_weights: FloatArray, out: FloatArray
+    position: FloatArray,
+    faces: IntArray,
+    functions: FloatArray,
+    weights: FloatArray,
+    axis_weights: FloatArray,
+    out: FloatArray,
 ) -> None:
     """Second derivatives of det[c x, x_s, x_t]: ε_ijk times the vector left over, for each pair."""
-    n_faces, n_points = vectors.shape[:2]
-    n_nodes = functions.shape[2]
-    for f in prange(n_faces):
+    n_nodes = faces.shape[1]
+    for f in prange(len(faces)):
+        vectors = np.empty((3, 3))
         out[f] = 0.0
-        for q in range(n_points):
+        for q in range(len(weights)):
+            _combine_nodes(position, faces[f], functions[q], vectors)
             for block in range(3):
                 # (x, y), (y, z), (x, z): components i and j, the one left over, the permutation's sign
                 i, j, left = (block % 2, block % 2 + 1, (block + 2) % 3) if block < 2 else (0, 2, 1)
@@ -135,8 +152,8 @@ def _hessians(
                     first, second = functions[q, (m + 1) % 3], functions[q, (m + 2) % 3]
                     # The weight goes by the component that the first vector, the position, takes.
                     taken = (left, j, i)[m], (left, i, j)[m]
-                    forward = sign * vectors[f, q, m, left] * axis_weights[taken[0]]
-                    backward = sign * vectors[f, q, m, left] * axis_weights[taken[1]]
+                    forward = sign * vectors[m, left] * axis_weights[taken[0]]
+                    backward = sign * vectors[m, left] * axis_weights[taken[1]]
                     for a in range(n_nodes):
                         for b in range(n_nodes):
                             out[f, block, a, b] += (

@@ -89,27 +89,6 @@ def element_forces(
                         pressure_operator[e, m, i, a] += weight * g[i, a]
 
 
-@njit(cache=True, parallel=True, fastmath=_FAST)
-def add_pressure_forces(
-    forces: FloatArray, pressure: FloatArray, pressure_operator: FloatArray, total: FloatArray
-) -> None:
-    """Add the forces of the solid's own pressure to others.
-
-    Parameters
-    ----------
-    forces, total : array, shape (n_elements, 3, n_nodes)
-        The sum is written to the second, which may be the first.
-    pressure : array, shape (n_elements, n_modes)
-    pressure_operator : array, shape (n_elements, n_modes, 3, n_nodes)
-    """
-    for e in prange(len(forces)):
-        for i in range(3):
-            for a in range(forces.shape[2]):
-                total[e, i, a] = forces[e, i, a]
-                for m in range(pressure.shape[1]):
-                    total[e, i, a] += pressure[e, m] * pressure_operator[e, m, i, a]
-
-
 @njit(cache=True, fastmath=_FAST)
 def _product_with_moduli(
     i: int,

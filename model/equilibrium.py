@@ -19,10 +19,11 @@ from .constitutive import (
 )
 from .element_geometry import ElementGeometry, element_geometry
 from .element_integrals import force_integrals, volumetric_energy
-from .element_kernels import add_element_tangents, add_pressure_forces
+from .element_kernels import add_element_tangents
 from .elements import FloatArray, IntArray, reference_element
 from .hex_mesh import BoolArray, HexMesh
 from .materials.solid import SolidMaterial
+from .pressure_kernels import add_pressure_forces, pressure_changes
 from .sparsity import TangentPattern, add_up, slabs, tangent_pattern
 from .state import Load, State, combine
 from .stress_measures import linear_change, pull_back, push_forward
@@ -216,7 +217,8 @@ class Equilibrium:
     def linear_change(self, balance: Balance, displacement: FloatArray) -> State:
         """Return the change of everything with a change of the displacement, shape (n_nodes, 3)."""
         kinematics, elements = balance.kinematics, self.mesh.elements
-        pressure = np.einsum("emia,eai->em", balance.pressure_operator, displacement[elements], optimize=True)
+        pressure = np.empty(balance.projected_pressure.shape)
+        pressure_changes(displacement, elements, balance.pressure_operator, self.bulk_modulus_MPa, pressure)
         change_of_F = np.empty_like(kinematics.F)
         stress = np.empty_like(balance.response.stress)
         linear_change(
@@ -233,7 +235,7 @@ class Equilibrium:
         tension = [family.tension_change(change_of_F[family.elements]) for family in fibres]
         return State(
             displacement,
-            self.bulk_modulus_MPa[:, None] * pressure,
+            pressure,
             stress,
             np.concatenate(tension) if tension else None,
         )

@@ -31,7 +31,8 @@ def write_vtu_series(simulation: Simulation, folder: Path) -> list[Path]:
     """Write one VTU file for each pressure reached and a PVD index over them.
 
     Points carry the displacement from the unstressed shape; cells the region (index into the regions of
-    `actuator_mesh`), the largest principal stretch, the solid's pressure and the von Mises stress.
+    `actuator_mesh`), the largest principal stretch, the solid's pressure, the Cauchy stress (xx, yy, zz, xy,
+    yz, xz, which ParaView takes for a symmetric tensor) and von Mises' measure of it.
 
     Parameters
     ----------
@@ -59,6 +60,7 @@ def write_vtu_series(simulation: Simulation, folder: Path) -> list[Path]:
                 "region": [simulation.mesh.region.astype(np.int32)],
                 "largest_stretch": [fields.largest_stretch],
                 "pressure_MPa": [fields.pressure_MPa],
+                "cauchy_stress_MPa": [fields.cauchy_MPa],
                 "von_mises_MPa": [fields.von_mises_MPa],
             },
         ).write(path, file_format="vtu")

@@ -12,6 +12,7 @@ from .element_geometry import element_geometry
 from .elements import FloatArray
 from .simulation import Simulation
 
+_NORMAL = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
 _SQUARES = np.array([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
 
 
@@ -25,13 +26,19 @@ class ElementFields:
         Largest principal stretch.
     pressure_MPa : array, shape (n_elements,)
         The solid's own pressure, minus the volumetric part of the Cauchy stress.
-    von_mises_MPa : array, shape (n_elements,)
-        Of the Cauchy stress.
+    cauchy_MPa : array, shape (n_elements, 6)
+        Cauchy stress: xx, yy, zz, xy, yz, xz.
     """
 
     largest_stretch: FloatArray
     pressure_MPa: FloatArray
-    von_mises_MPa: FloatArray
+    cauchy_MPa: FloatArray
+
+    @property
+    def von_mises_MPa(self) -> FloatArray:
+        """Von Mises' measure of the Cauchy stress, shape (n_elements,)."""
+        deviator = self.cauchy_MPa - _NORMAL * self.cauchy_MPa[:, :3].mean(axis=1, keepdims=True)
+        return np.asarray(np.sqrt(1.5 * (deviator**2) @ _SQUARES))
 
 
 def element_fields(simulation: Simulation, row: int) -> ElementFields:
@@ -59,10 +66,10 @@ def element_fields(simulation: Simulation, row: int) -> ElementFields:
     share = geometry.volumes / geometry.volumes.sum(axis=1, keepdims=True)
     kirchhoff = evaluate_materials(groups, state).stress
     cauchy = np.einsum("eq,eqs->es", share, kirchhoff / state.J[..., None])
-    deviator = cauchy - np.array([1, 1, 1, 0, 0, 0]) * cauchy[:, :3].mean(axis=1)[:, None]
     bulk = per_element(groups, len(mesh.elements), "bulk_modulus_MPa")
+    pressure = -bulk * (np.einsum("eq,eq->e", share, state.J) - 1.0)
     return ElementFields(
         largest_stretch=np.einsum("eq,eq->e", share, np.exp(state.log_stretch.max(axis=2))),
-        pressure_MPa=-bulk * (np.einsum("eq,eq->e", share, state.J) - 1.0),
-        von_mises_MPa=np.sqrt(1.5 * (deviator**2) @ _SQUARES),
+        pressure_MPa=pressure,
+        cauchy_MPa=cauchy - pressure[:, None] * _NORMAL,
     )

@@ -10,9 +10,11 @@ import numpy as np
 import pytest
 
 from spavision.errors import InputError
+from spavision.model.actuator_problem import actuator_materials
 from spavision.model.continuation import SteppingSettings
 from spavision.model.element_geometry import element_geometry
 from spavision.model.export import write_vtu_series
+from spavision.model.fields import element_fields
 from spavision.model.figures import deformed_shapes
 from spavision.model.geometry import ActuatorGeometry
 from spavision.model.linear_solver import SuperLUSolver, linear_solver
@@ -145,6 +147,7 @@ def test_vtu_series(ramp: Simulation, tmp_path: Path) -> None:
     last = meshio.read(files[-1])
     np.testing.assert_allclose(last.point_data["displacement_mm"], ramp.displacement_mm[-1])
     assert {"region", "largest_stretch", "pressure_MPa", "von_mises_MPa"} <= set(last.cell_data)
+    assert last.cell_data["cauchy_stress_MPa"][0].shape == (len(ramp.mesh.elements), 6)
     # VTK's corners 0, 1, 3, 4 span each box, whose volume must come out positive and right.
     corners = last.points[last.cells_dict["hexahedron27"]]
     volume = np.linalg.det(corners[:, [1, 3, 4]] - corners[:, :1])
@@ -152,6 +155,17 @@ def test_vtu_series(ramp: Simulation, tmp_path: Path) -> None:
     # and its last node is the one inside
     inside = (corners > corners.min(axis=1, keepdims=True)) & (corners < corners.max(axis=1, keepdims=True))
     assert np.all(inside.all(axis=2) == (np.arange(27) == 26))
+
+
+def test_stress_bears_the_hanging_weight(ramp: Simulation) -> None:
+    """Virial theorem: the integral of σ_yy over the body is that of weight times depth below the clamp."""
+    stress = element_fields(ramp, 0).cauchy_MPa
+    volumes = element_geometry(ramp.mesh).volumes.sum(axis=1)
+    materials = actuator_materials(crimp_ratio=ramp.crimp_ratio, settings=ramp.settings)
+    densities = np.array([materials[name].density_tonne_per_mm3 for name in ramp.mesh.region_names])
+    depth_mm = (ramp.mesh.nodes_mm + ramp.displacement_mm[0])[ramp.mesh.elements][:, :, 1].mean(axis=1)
+    weight_N = 9.81e3 * densities[ramp.mesh.region] * volumes
+    assert float(volumes @ stress[:, 1]) == pytest.approx(float(weight_N @ depth_mm), rel=0.01)
 
 
 def test_deformed_shapes(ramp: Simulation) -> None:

@@ -12,6 +12,7 @@ from __future__ import annotations
 import shutil
 import tempfile
 import weakref
+from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -38,7 +39,7 @@ DEFAULT_PRESSURES_kPa = tuple(range(0, 70, 5))
 
 
 @dataclass(frozen=True)
-class _PathResult:
+class _PathResult(ABC):
     """A tip path with its table, and its folder as the command of the same kind writes it."""
 
     tip_path: TipPath
@@ -61,8 +62,9 @@ class _PathResult:
         self._write(results)
         return results.path
 
+    @abstractmethod
     def _write(self, results: ResultsFolder) -> None:
-        raise NotImplementedError
+        """Write the command's files and its record."""
 
 
 @dataclass(frozen=True)

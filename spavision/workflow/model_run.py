@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections import deque
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -51,7 +52,7 @@ def run_model(
     for note in inputs.notes:
         warnings.warn(note, InputWarning, stacklevel=2)
     with progress_bar("model", total=float(pressure_kPa.max()), quiet=quiet) as advance:
-        last: list[Checkpoint] = []
+        last: deque[Checkpoint] = deque(maxlen=1)
         try:
             return simulate(
                 inputs.geometry,
@@ -60,7 +61,7 @@ def run_model(
                 settings=inputs.settings,
                 progress=lambda reached_kPa: advance(f"{reached_kPa:.0f} kPa", reached_kPa),
                 resume=done,
-                keep=lambda checkpoint: last.__setitem__(slice(None), [checkpoint]),
+                keep=last.append,
             )
         except KeyboardInterrupt:
             if file is not None and last:

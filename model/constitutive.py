@@ -146,7 +146,9 @@ def isochoric_energy(groups: tuple[MaterialGroup, ...], state: Deformation, volu
     for group in groups:
         part = _take(state, group.elements)
         law = group.material.law
-        density = law.energy(_isochoric(part.log_stretch)) + guard_energy(part.J, law.shear_modulus_MPa)
+        density = law.energy(isochoric_log_stretch(part.log_stretch)) + guard_energy(
+            part.J, law.shear_modulus_MPa
+        )
         for fibre in group.material.fibres:
             density = density + fibre.energy(np.linalg.norm(part.F @ np.asarray(fibre.direction), axis=1))
         total += float(density @ volumes[group.elements].ravel())
@@ -163,7 +165,8 @@ def _take(state: Deformation, elements: IntArray) -> Deformation:
     )
 
 
-def _isochoric(log_stretch: FloatArray) -> FloatArray:
+def isochoric_log_stretch(log_stretch: FloatArray) -> FloatArray:
+    """Return log stretches, shape (n, 3), with the change of volume taken off."""
     return log_stretch - log_stretch.mean(axis=1, keepdims=True)
 
 
@@ -171,7 +174,7 @@ def _evaluate(group: MaterialGroup, state: Deformation, stress: FloatArray, modu
     """Write a group's stress and moduli, fibres left out."""
     law, elements = group.material.law, group.elements
     points = (len(elements), state.J.shape[1])
-    first, second = law.derivatives(_isochoric(state.log_stretch[elements].reshape(-1, 3)))
+    first, second = law.derivatives(isochoric_log_stretch(state.log_stretch[elements].reshape(-1, 3)))
     first, second = first.reshape(*points, 3), second.reshape(*points, 3, 3)
     principal_stress(elements, state.directions, first, stress)
     principal_moduli(elements, state.directions, state.log_stretch, first, second, moduli)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -30,14 +31,23 @@ class ElementGeometry:
     pressure_modes: FloatArray
 
 
+_TABULATED: WeakKeyDictionary[HexMesh, ElementGeometry] = WeakKeyDictionary()
+
+
 def element_geometry(mesh: HexMesh) -> ElementGeometry:
-    """Tabulate a mesh.
+    """Tabulate a mesh, once in its life: solver, fields and figures of every pressure share the tables.
 
     Raises
     ------
     ValueError
         If an element is turned inside out.
     """
+    if mesh not in _TABULATED:
+        _TABULATED[mesh] = _tabulate(mesh)
+    return _TABULATED[mesh]
+
+
+def _tabulate(mesh: HexMesh) -> ElementGeometry:
     table = reference_element(mesh.order)
     corners = mesh.nodes_mm[mesh.elements]
     jacobian = np.einsum("eai,qja->eqij", corners, table.gradients)

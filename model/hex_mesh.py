@@ -14,7 +14,7 @@ from .elements import FloatArray, IntArray, reference_element, reference_face
 BoolArray = NDArray[np.bool_]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HexMesh:
     """A mesh of 8- or 27-node hexahedra.
 

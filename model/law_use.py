@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .constitutive import Deformation, MaterialGroup
+from .constitutive import Deformation, MaterialGroup, isochoric_log_stretch
 from .elements import FloatArray, reference_element
 from .hex_mesh import HexMesh
 from .materials.curves import MODES
@@ -94,5 +94,4 @@ def _use(
 
 def _isochoric(state: Deformation, elements: np.ndarray) -> FloatArray:
     """Isochoric log stretches at the points of some elements, (n, 3)."""
-    log_stretch = state.log_stretch[elements].reshape(-1, 3)
-    return log_stretch - log_stretch.mean(axis=1, keepdims=True)
+    return isochoric_log_stretch(state.log_stretch[elements].reshape(-1, 3))

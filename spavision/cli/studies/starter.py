@@ -13,7 +13,7 @@ STARTER = """\
 [study]
 # experiment = "experiment.toml"
 crimp_ratio = 0.2
-model = "reduced"              # about 1 s a case; "full" takes about 13
+model = "reduced"              # about 1 s a case; "full" takes about 8
 cases = 128                    # a power of two suits the Sobol sequence
 pressures_kPa = [0, 5, 10, 15, 20, 25, 30, 35, 40, 45, 50]
 

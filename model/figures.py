@@ -16,6 +16,9 @@ from .fields import element_fields
 from .observe import locate
 from .simulation import Simulation
 
+_RIM = {1: [0, 1, 2, 3], 2: [0, 4, 1, 5, 2, 6, 3, 7]}
+"""Nodes once round a face, of those of `reference_face`: corners, then middles of edges, then the centre."""
+
 _MARGIN_MM = 8.0
 STRETCH_COLOURS = "viridis"
 
@@ -167,13 +170,7 @@ def _side_faces(simulation: Simulation) -> tuple[IntArray, IntArray]:
     faces = mesh.elements[:, table.nodes]
     on_side = np.all(np.isclose(mesh.nodes_mm[faces, 2], 0.5 * simulation.geometry.width_mm), axis=2)
     element, face = np.nonzero(on_side)
-    picked = faces[element, face]
-    centre = mesh.nodes_mm[picked][..., :2].mean(axis=1, keepdims=True)
-    offset = mesh.nodes_mm[picked][..., :2] - centre
-    on_rim = np.linalg.norm(offset, axis=2) > 1e-9
-    angle = np.where(on_rim, np.arctan2(offset[..., 1], offset[..., 0]), np.inf)
-    n_rim = int(on_rim[0].sum())
-    return element, np.take_along_axis(picked, np.argsort(angle, axis=1)[:, :n_rim], axis=1)
+    return element, faces[element, face][:, _RIM[mesh.order]]
 
 
 def _frame(simulation: Simulation, rows: IntArray) -> tuple[FloatArray, FloatArray]:

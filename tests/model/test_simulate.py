@@ -15,7 +15,7 @@ from spavision.model.continuation import SteppingSettings
 from spavision.model.element_geometry import element_geometry
 from spavision.model.export import write_vtu_series
 from spavision.model.fields import element_fields
-from spavision.model.figures import deformed_shapes
+from spavision.model.figures import _side_faces, deformed_shapes
 from spavision.model.geometry import ActuatorGeometry
 from spavision.model.linear_solver import SuperLUSolver, linear_solver
 from spavision.model.newton import NewtonSettings
@@ -173,3 +173,13 @@ def test_deformed_shapes(ramp: Simulation) -> None:
     titles = [axis.get_title() for axis in figure.axes if axis.get_title()]
     assert titles == ["0 kPa", "20 kPa", "50 kPa"]
     figure.canvas.draw()
+
+
+def test_the_side_face_is_drawn_without_holes(ramp: Simulation) -> None:
+    """The polygons at rest cover the side face: its height, base and strips times its length."""
+    elements, rims = _side_faces(ramp)
+    x, y = np.moveaxis(ramp.mesh.nodes_mm[rims][..., :2], 2, 0)
+    areas_mm2 = 0.5 * np.abs(np.sum(x * np.roll(y, -1, axis=1) - y * np.roll(x, -1, axis=1), axis=1))
+    extent_mm = np.ptp(ramp.mesh.nodes_mm, axis=0)
+    assert areas_mm2.sum() == pytest.approx(extent_mm[0] * extent_mm[1], rel=1e-9)
+    assert len(set(elements)) == len(elements)
